@@ -24,7 +24,7 @@ install(FILES ${PROJECT_BINARY_DIR}/lagenConfig.cmake ${PROJECT_BINARY_DIR}/lage
 install(DIRECTORY runtime/include/lagen DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h"
   PATTERN "README.md")
 if(TARGET lagen)
-  install(DIRECTORY runtime/program/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lagen/program FILES_MATCHING PATTERN "*.hpp")
+  install(DIRECTORY runtime/program/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lagen/program FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
   install(DIRECTORY python/lagen DESTINATION ${LAGEN_INSTALL_PYTHON} FILES_MATCHING PATTERN "*.py" PATTERN __pycache__ EXCLUDE)
 endif()
 if(TARGET lagen AND NOT CMAKE_CROSSCOMPILING) # scripts/command-pages asks the program

@@ -4,7 +4,8 @@
 #     [SEPARATE]         its files are never united
 #     [TEMPLATES]        its files instantiate the runtime, which is compiled with some optimisation
 #     [UNSANITIZED]      left out of builds with sanitizers: its tests compile programs of their own, or look at digits
-#     [COMPUTES]         left out of them too, but for scripts/test --all: its tests print, or compute again what is proved
+#     [PARSES]           in every build with sanitizers: its tests read what a user wrote, or decide; the others are there
+#                        for scripts/test --all
 #     [APART tags]       its tests of each tag are a test by themselves, NAME_tag; those of the tag `all` are for
 #                        scripts/test --all only (LAGEN_ALL_TESTS)
 #     [LATER files..]    these of its files are compiled for scripts/test --all only
@@ -38,10 +39,11 @@ endif()
 
 # With LAGEN_UNITY the files of a room are compiled a few at a time, so that headers are read and templates instantiated
 # once for all of them. Names in the anonymous namespaces of a room must therefore differ. A parameter may have the name
-# of another file's constant, so that -Wshadow is left to the builds that are not united and to scripts/tidy.
-function(lagen_unite target)
+# of another file's constant, so that -Wshadow is left to the builds that are not united and to scripts/tidy. In rooms two
+# dozen files take three quarters of the time that they take in two units; tests, most of which change alone, stay smaller.
+function(lagen_unite target files)
   if(LAGEN_UNITY)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${files})
   endif()
 endfunction()
 
@@ -54,11 +56,14 @@ function(lagen_room name)
   list(TRANSFORM ROOM_DEPENDS PREPEND lagen_)
   if(sources)
     add_library(lagen_${name} STATIC ${sources})
-    lagen_unite(lagen_${name})
+    lagen_unite(lagen_${name} 24)
     target_include_directories(lagen_${name} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
     target_link_libraries(lagen_${name} PUBLIC ${ROOM_DEPENDS} ${ROOM_LIBRARIES} PRIVATE lagen_settings)
     if(LAGEN_SANITIZE AND NOT name IN_LIST lagen_busy_rooms)
       target_compile_options(lagen_${name} PRIVATE -O0)
+    endif()
+    if(ROOM_DEPENDS) # fmt comes with them
+      lagen_share_headers(lagen_${name} rooms)
     endif()
   else()
     add_library(lagen_${name} INTERFACE)
@@ -67,24 +72,32 @@ function(lagen_room name)
   endif()
 endfunction()
 
-# What every test reads is read once for all tests that are compiled alike: Catch2, and for those that instantiate the
-# runtime (KIND templates) the runtime. Only united builds do so; the others show which file forgets to include something.
+# What nearly every file reads is read once for all that is compiled alike: by the rooms the standard library and fmt, by the
+# tests Catch2, and by those that instantiate the runtime the runtime. Only united builds do so; the others show which file
+# forgets to include something. KIND names the headers and the optimisation: rooms, tests, templates.
+set(lagen_headers_rooms <algorithm> <array> <cmath> <filesystem> <functional> <map> <memory> <numeric> <optional> <set> <span> <sstream>
+                        <string> <unordered_map> <variant> <vector> <fmt/format.h> <gmpxx.h>)
+set(lagen_headers_tests <catch2/catch.hpp> <filesystem> <functional> <map> <set>)
+set(lagen_headers_templates <catch2/catch.hpp> <lagen/lagen.hpp>)
+set(lagen_libraries_rooms fmt::fmt)
+set(lagen_libraries_tests Catch2::Catch2)
+set(lagen_libraries_templates Catch2::Catch2 lagen_runtime)
+
 function(lagen_share_headers target kind)
   if(NOT LAGEN_UNITY)
     return()
   endif()
-  set(shared test_headers_${kind})
+  get_target_property(options ${target} COMPILE_OPTIONS)
+  if(NOT options)
+    set(options "")
+  endif()
+  string(MAKE_C_IDENTIFIER "shared_headers_${kind}${options}" shared)
   if(NOT TARGET ${shared})
     file(CONFIGURE OUTPUT ${shared}.cpp CONTENT "")
-    add_library(${shared} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${shared}.cpp)
-    target_compile_options(${shared} PRIVATE $<TARGET_PROPERTY:${target},COMPILE_OPTIONS>)
-    target_link_libraries(${shared} PRIVATE Catch2::Catch2 lagen_settings)
-    if(kind STREQUAL "templates")
-      target_link_libraries(${shared} PRIVATE lagen_runtime)
-      target_precompile_headers(${shared} PRIVATE <catch2/catch.hpp> <lagen/lagen.hpp>)
-    else()
-      target_precompile_headers(${shared} PRIVATE <catch2/catch.hpp> <filesystem> <functional> <map> <set>)
-    endif()
+    add_library(${shared} OBJECT EXCLUDE_FROM_ALL ${CMAKE_CURRENT_BINARY_DIR}/${shared}.cpp)
+    target_compile_options(${shared} PRIVATE ${options})
+    target_link_libraries(${shared} PRIVATE ${lagen_libraries_${kind}} lagen_settings)
+    target_precompile_headers(${shared} PRIVATE ${lagen_headers_${kind}})
     lagen_cache_shared_headers(${shared})
   endif()
   target_precompile_headers(${target} REUSE_FROM ${shared})
@@ -113,7 +126,7 @@ function(lagen_timed_test name seconds)
 endfunction()
 
 function(lagen_test_room name)
-  cmake_parse_arguments(PARSE_ARGV 1 ROOM "SEPARATE;TEMPLATES;UNSANITIZED;COMPUTES" "" "LIBRARIES;APART;LATER;SECONDS;SANITIZED")
+  cmake_parse_arguments(PARSE_ARGV 1 ROOM "SEPARATE;TEMPLATES;UNSANITIZED;PARSES" "" "LIBRARIES;APART;LATER;SECONDS;SANITIZED")
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
   list(FILTER sources EXCLUDE REGEX "/readme_1\\.cpp$") # a program that a test compiles
   # Unoptimised templates take an hour for these with sanitizers.
@@ -121,12 +134,12 @@ function(lagen_test_room name)
     list(TRANSFORM ROOM_LATER REPLACE "(.+)" "${CMAKE_CURRENT_SOURCE_DIR}/${name}/\\1.cpp")
     list(REMOVE_ITEM sources ${ROOM_LATER})
   endif()
-  if(NOT sources OR (LAGEN_SANITIZE AND (ROOM_UNSANITIZED OR (ROOM_COMPUTES AND NOT LAGEN_ALL_TESTS))))
+  if(NOT sources OR (LAGEN_SANITIZE AND (ROOM_UNSANITIZED OR NOT (ROOM_PARSES OR LAGEN_ALL_TESTS))))
     return()
   endif()
   add_executable(test_${name} ${sources})
   if(NOT ROOM_SEPARATE)
-    lagen_unite(test_${name})
+    lagen_unite(test_${name} 12)
   endif()
   # Tests are compiled for longer than they run; what computes for long is what they test. Only the templates of Eigen
   # and of the runtime are compiled with them, whose loops are too slow without any optimisation.
@@ -181,6 +194,7 @@ function(lagen_fuzz_target name)
   list(TRANSFORM FUZZ_SOURCES PREPEND fuzz/)
   list(TRANSFORM FUZZ_CORPUS PREPEND ${PROJECT_SOURCE_DIR}/)
   add_executable(fuzz_${name} fuzz/fuzz_${name}.cpp fuzz/require.cpp)
+  lagen_unite(fuzz_${name} 12)
   target_include_directories(fuzz_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   target_link_libraries(fuzz_${name} PRIVATE ${FUZZ_LIBRARIES} lagen_settings)
   if(NOT (LAGEN_SANITIZE AND CMAKE_CXX_COMPILER_ID MATCHES "Clang"))

@@ -289,7 +289,7 @@ namespace {
 /// The only name that begins with `unknown`, if it is more than two characters.
 std::string continuation_of(std::string_view unknown, std::span<const std::string> known)
 {
-    const auto begins = [&](const std::string& name) { return name.starts_with(unknown); };
+    const auto begins = [&](const std::string& name) { return name.starts_with(unknown) && name != unknown; };
     if (unknown.size() < 3 || std::ranges::count_if(known, begins) != 1) return "";
     return *std::ranges::find_if(known, begins);
 }
@@ -304,7 +304,7 @@ std::string nearest_name(std::string_view unknown, std::span<const std::string> 
     const std::string* best = nullptr;
     std::size_t best_distance = (wanted.size() + 2) / 4 + (wanted.size() == 1 ? 1 : 0) + 1;
     for (const std::string& name : known) {
-        if (name.size() > longest_name) continue;
+        if (name.size() > longest_name || name == unknown) continue; // what was refused helps nobody
         const std::u32string candidate = code_points(name);
         const bool same_letters = lower_case(candidate) == wanted_lower;
         // One letter for another is no slip: something of the name must be left.

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// main: options to a command, errors to standard error and an exit code. No mathematics.
+#include "activity.hpp"
 #include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
+#include "commands/machine/activity_watch.hpp"
 #include "commands/machine/write_file.hpp"
 
 #include <fmt/core.h>
 
 #include <array>
 #include <csignal>
-#include <cstdio>
 #include <fcntl.h>
 #include <new>
+#include <optional>
 #include <unistd.h>
 
 namespace {
@@ -21,15 +23,16 @@ struct CommandEntry {
     const char* name;
     const char* purpose;
     ExitCode (*run)(Arguments);
+    bool follows_itself = false; ///< shows its own progress
 };
 
 constexpr std::array commands{
     CommandEntry{"check", "prove or refute the structure equations and the other claims of a model", run_check},
     CommandEntry{"derive", "print the equations of motion", run_derive},
     CommandEntry{"generate", "write the C++ header of a model", run_generate},
-    CommandEntry{"run", "generate, compile and integrate a scene of a model", run_run},
-    CommandEntry{"sweep", "integrate a scene for many parameters and initial values", run_sweep},
-    CommandEntry{"chart", "chart what accuracy costs by every method", run_chart},
+    CommandEntry{"run", "generate, compile and integrate a scene of a model", run_run, true},
+    CommandEntry{"sweep", "integrate a scene for many parameters and initial values", run_sweep, true},
+    CommandEntry{"chart", "chart what accuracy costs by every method", run_chart, true},
     CommandEntry{"reduce", "prove that a morphism projects the equations of motion; list cyclic coordinates",
                  run_reduce},
     CommandEntry{"solve", "find relative equilibria, with what is proved of their stability", run_solve},
@@ -47,10 +50,11 @@ constexpr const char* closing = R"(
 
 void print_help()
 {
-    fmt::print("lagen: mechanics and control on Lie algebroids, from a model file to proved equations and fast C++\n\n"
-               "usage: lagen COMMAND MODEL [options]\n\n");
-    for (const CommandEntry& entry : commands) fmt::print("  {:<10}{}\n", entry.name, entry.purpose);
-    fmt::print("{}", closing);
+    std::string text =
+        "lagen: mechanics and control on Lie algebroids, from a model file to proved equations and fast C++\n\n"
+        "usage: lagen COMMAND MODEL [options]\n\n";
+    for (const CommandEntry& entry : commands) text += fmt::format("  {:<10}{}\n", entry.name, entry.purpose);
+    write_standard_output(text + closing);
 }
 
 ExitCode dispatch(const std::vector<std::string>& arguments)
@@ -60,12 +64,16 @@ ExitCode dispatch(const std::vector<std::string>& arguments)
         return arguments.empty() ? ExitCode::usage : ExitCode::done;
     }
     if (arguments[0] == "--version") {
-        fmt::print("lagen {}\n", LAGEN_VERSION);
+        write_standard_output(fmt::format("lagen {}\n", LAGEN_VERSION));
         return ExitCode::done;
     }
     std::vector<std::string> names;
     for (const CommandEntry& entry : commands) {
-        if (arguments[0] == entry.name) return entry.run(Arguments(arguments).subspan(1));
+        if (arguments[0] == entry.name) {
+            std::optional<Activity> activity;
+            if (!entry.follows_itself) activity.emplace(entry.name);
+            return entry.run(Arguments(arguments).subspan(1));
+        }
         names.emplace_back(entry.name);
     }
     const std::string nearest = nearest_name(arguments[0], names);
@@ -82,7 +90,6 @@ extern "C" void on_interrupt(int)
 
 int report(const std::string& text, ExitCode code)
 {
-    std::fflush(stdout);
     write_standard_error(text + (text.ends_with('\n') ? "" : "\n"));
     return static_cast<int>(code);
 }
@@ -106,13 +113,11 @@ int main(int argc, char** argv)
     std::signal(SIGINT, on_interrupt);
     std::signal(SIGTERM, on_interrupt);
     std::signal(SIGHUP, on_interrupt);
-    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGPIPE, SIG_IGN); // a reader who went away: write says so
     std::signal(SIGXFSZ, SIG_IGN); // a file at its limit: write says so
     try {
-        const ExitCode code = dispatch(std::vector<std::string>(argv + 1, argv + argc));
-        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-            return report("error: cannot write to standard output", ExitCode::machine);
-        return static_cast<int>(code);
+        const ActivityWatch watch;
+        return static_cast<int>(dispatch(std::vector<std::string>(argv + 1, argv + argc)));
     } catch (const Error& error) {
         return report(error.what(), error.code());
     } catch (const InternalError& error) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "pipeline.hpp"
 
+#include "activity.hpp"
 #include "content_hash.hpp"
 #include "elaborate/bind_parameters.hpp"
 #include "elaborate/make_frame.hpp"
@@ -54,8 +55,9 @@ std::vector<std::string> readable_equations(const CheckedModel& checked, const s
                                             const std::string& command)
 {
     if (!is_readable(checked.system))
-        return {fmt::format("The equations are too long to be written out here: {} prints them.", command)};
+        return {fmt::format("The equations are too long to be written out here: {} -o FILE writes them.", command)};
     try {
+        const Activity activity("equations for the reader of the header");
         EquationSet equations = derive(form, checked.model, checked.system, checked.report);
         equations.given.clear(); // the model stands in the header too
         return lines_of(print_text(equations, LongLines::whole));
@@ -257,6 +259,7 @@ Generated generate(const CheckedModel& checked, const GenerateRequest& request)
         module.equations = readable_equations(checked, kernels.form, module.derive);
     else
         forget_values(module);
+    const Activity activity("writing the header");
     generated.header = print_header(module);
     return generated;
 }

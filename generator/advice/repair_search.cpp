@@ -51,7 +51,7 @@ bool RepairSearch::fits(const std::vector<Refuted>& refuted, const Repair& repai
     const Trial trial(graph_, lowered_, repair);
     for (std::size_t k = 0; k < std::min(refuted.size(), most_refuted); ++k) {
         const NodeId value = again(graph_, partial_, lowered_, functions_, *refuted[k].residual);
-        WitnessPoint point(graph_, refuted[k].witness.point);
+        WitnessPoint point(graph_, refuted[k].witness.whole);
         const bool vanishes = point.may_vanish(value);
         if (!affords(point.effort() + lowered_.r()) || !vanishes) return false;
     }
@@ -123,7 +123,7 @@ std::vector<Repair> RepairSearch::global_repairs(const std::vector<Refuted>& ref
     // Multiples of an entry, or a missing number: solved for where the first equation was refuted.
     std::vector<Repair> solved;
     for (const EntryPlace& place : editable_places(lowered_, editable_, true)) {
-        WitnessPoint point(graph_, refuted.front().witness.point);
+        WitnessPoint point(graph_, refuted.front().witness.whole);
         const auto value = [&](const Repair& repair) {
             const Trial trial(graph_, lowered_, repair);
             return point.exactly(again(graph_, partial_, lowered_, functions_, *refuted.front().residual));

@@ -36,6 +36,18 @@ bool OrthonormalSpan::contains(const Vector& a) const
     return !(length_of(outside(a)) > negligible_ * length_of(a));
 }
 
+OrthonormalSpan::Vector OrthonormalSpan::farthest_outside(std::size_t n) const
+{
+    Vector best;
+    for (std::size_t k = 0; k < n; ++k) {
+        Vector unit(n, 0);
+        unit[k] = 1;
+        Vector out = outside(std::move(unit));
+        if (best.empty() || length_of(out) > 1.0001L * length_of(best)) best = std::move(out);
+    }
+    return best;
+}
+
 bool OrthonormalSpan::add(const Vector& a)
 {
     Vector rest = outside(a);

@@ -17,6 +17,8 @@ class OrthonormalSpan {
     /// What the span leaves of `a`; twice, since once leaves roundings.
     [[nodiscard]] Vector outside(Vector a) const;
     [[nodiscard]] bool contains(const Vector& a) const;
+    /// The unit vector that sticks out farthest of a span that is not everything, or what sticks out of it.
+    [[nodiscard]] Vector farthest_outside(std::size_t n) const;
     /// Whether it was new: false where the span contains it.
     bool add(const Vector& a);
 

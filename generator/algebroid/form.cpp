@@ -54,16 +54,6 @@ FormIndex joined(const FormIndex& a, const FormIndex& b)
     return result;
 }
 
-/// The columns of d e^c = -C^c_ab e^a ^ e^b, a < b, by c.
-std::vector<std::vector<std::pair<FormIndex, NodeId>>> basis_differentials(Graph& graph, const Algebroid& algebroid)
-{
-    std::vector<std::vector<std::pair<FormIndex, NodeId>>> result(algebroid.r());
-    for (std::size_t a = 0; a < algebroid.r(); ++a)
-        for (std::size_t b = a + 1; b < algebroid.r(); ++b)
-            for (const ColumnEntry& C : algebroid.C(a, b)) result[C.index].push_back({{a, b}, graph.negate(C.value)});
-    return result;
-}
-
 } // namespace
 
 ExteriorForm function_form(NodeId f)
@@ -119,16 +109,38 @@ ExteriorForm contraction(Graph& graph, const Section& s, const ExteriorForm& w)
     return components.form();
 }
 
-ExteriorForm differential(BaseGradient& partial, const Algebroid& algebroid, const ExteriorForm& w)
+Differential::Differential(BaseGradient& partial, const Algebroid& algebroid)
+    : partial_(partial), algebroid_(algebroid), movers_(algebroid.n()), basis_(algebroid.r())
 {
-    Graph& graph = partial.graph();
-    const auto de = basis_differentials(graph, algebroid);
+    for (std::size_t a = 0; a < algebroid.r(); ++a)
+        for (const ColumnEntry& rho : algebroid.anchor[a]) movers_[rho.index].push_back(a);
+    for (std::size_t a = 0; a < algebroid.r(); ++a)
+        for (std::size_t b = a + 1; b < algebroid.r(); ++b)
+            for (const ColumnEntry& C : algebroid.C(a, b))
+                basis_[C.index].push_back({{a, b}, partial.graph().negate(C.value)});
+}
+
+/// The sections a for which rho_a(f) has a term, ascending.
+std::vector<std::size_t> Differential::moving(NodeId f)
+{
+    std::vector<std::size_t> sections;
+    for (const ColumnEntry& slope : partial_.of(f))
+        sections.insert(sections.end(), movers_[slope.index].begin(), movers_[slope.index].end());
+    std::ranges::sort(sections);
+    const auto repeated = std::ranges::unique(sections);
+    sections.erase(repeated.begin(), repeated.end());
+    return sections;
+}
+
+ExteriorForm Differential::operator()(const ExteriorForm& w)
+{
+    Graph& graph = partial_.graph();
     Components components(graph, w.degree + 1);
     std::vector<NodeId> derivative;
     for (const auto& [index, value] : w.components) {
-        for (std::size_t a = 0; a < algebroid.r(); ++a) {
+        for (const std::size_t a : moving(value)) {
             derivative.clear();
-            partial.append_along(derivative, algebroid.anchor[a], value);
+            partial_.append_along(derivative, algebroid_.anchor[a], value);
             for (const NodeId term : derivative) components.add(joined({a}, index), term);
         }
         // w e^{a1} ^ .. ^ d e^{ak} ^ ..: d passes k forms of degree 1, each with a sign; d e^{ak} moves to the front
@@ -136,13 +148,18 @@ ExteriorForm differential(BaseGradient& partial, const Algebroid& algebroid, con
         for (std::size_t k = 0; k < index.size(); ++k) {
             FormIndex rest = index;
             rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(k));
-            for (const auto& [pair, coefficient] : de[index[k]]) {
+            for (const auto& [pair, coefficient] : basis_[index[k]]) {
                 const NodeId term = graph.multiply(value, coefficient);
                 components.add(joined(pair, rest), k % 2 == 0 ? term : graph.negate(term));
             }
         }
     }
     return components.form();
+}
+
+ExteriorForm differential(BaseGradient& partial, const Algebroid& algebroid, const ExteriorForm& w)
+{
+    return Differential(partial, algebroid)(w);
 }
 
 ExteriorForm lie_derivative(BaseGradient& partial, const Algebroid& algebroid, const Section& s, const ExteriorForm& w)

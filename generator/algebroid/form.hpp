@@ -32,7 +32,24 @@ struct ExteriorForm {
 /// i_s w; of a form of degree 0 the zero form of degree 0.
 [[nodiscard]] ExteriorForm contraction(Graph& graph, const Section& s, const ExteriorForm& w);
 
-/// d w; a component is listed where it has a term, and may be the constant 0, where its terms cancel.
+/// d of many forms: what vanishes by the structure of rho and C is not visited.
+class Differential {
+  public:
+    /// Keeps references.
+    Differential(BaseGradient& partial, const Algebroid& algebroid);
+    /// d w; a component is listed where it has a term, and may be the constant 0, where its terms cancel.
+    [[nodiscard]] ExteriorForm operator()(const ExteriorForm& w);
+
+  private:
+    [[nodiscard]] std::vector<std::size_t> moving(NodeId f);
+
+    BaseGradient& partial_;
+    const Algebroid& algebroid_;
+    std::vector<std::vector<std::size_t>> movers_;                 ///< by i: the sections a with rho^i_a
+    std::vector<std::vector<std::pair<FormIndex, NodeId>>> basis_; ///< by c: d e^c = -C^c_ab e^a ^ e^b, a < b
+};
+
+/// d w, of one form.
 [[nodiscard]] ExteriorForm differential(BaseGradient& partial, const Algebroid& algebroid, const ExteriorForm& w);
 
 /// L_s w = d i_s w + i_s d w; of a function rho(s) f.

@@ -4,6 +4,8 @@
 #include "algebroid/terms.hpp"
 #include "graph/calculus/differentiate.hpp"
 
+#include <algorithm>
+
 namespace lagen {
 namespace {
 
@@ -28,15 +30,27 @@ void append_derivatives(Terms<std::size_t>& terms, BaseGradient& partial, const 
 
 } // namespace
 
+BaseGradient::BaseGradient(Graph& graph, const std::vector<NodeId>& x) : graph_(graph)
+{
+    for (std::size_t i = 0; i < x.size(); ++i) places_.emplace(x[i], i);
+}
+
 const Column& BaseGradient::of(NodeId f)
 {
     const auto known = known_.find(f);
     if (known != known_.end()) return known->second;
     Column& column = known_[f];
-    if (graph_.is_constant(f) || x_.empty()) return column;
-    const std::vector<NodeId> partials = gradient(graph_, f, x_);
-    for (std::size_t i = 0; i < partials.size(); ++i)
-        if (!graph_.is_zero(partials[i])) column.push_back({i, partials[i]});
+    std::vector<std::pair<std::size_t, NodeId>> occurring; // by i
+    const NodeId roots[] = {f};
+    for (const NodeId node : reachable(graph_, roots))
+        if (const auto place = places_.find(node); place != places_.end()) occurring.emplace_back(place->second, node);
+    if (occurring.empty()) return column;
+    std::ranges::sort(occurring);
+    std::vector<NodeId> x;
+    for (const auto& [i, node] : occurring) x.push_back(node);
+    const std::vector<NodeId> partials = gradient(graph_, f, x);
+    for (std::size_t k = 0; k < partials.size(); ++k)
+        if (!graph_.is_zero(partials[k])) column.push_back({occurring[k].first, partials[k]});
     return column;
 }
 

@@ -16,7 +16,7 @@ using VectorField = Column;
 /// First partial derivatives with respect to the base coordinates, zero ones left out, computed once a node.
 class BaseGradient {
   public:
-    BaseGradient(Graph& graph, const std::vector<NodeId>& x) : graph_(graph), x_(x) {}
+    BaseGradient(Graph& graph, const std::vector<NodeId>& x);
     [[nodiscard]] Graph& graph() { return graph_; }
     /// df/dx^i
     const Column& of(NodeId f);
@@ -27,7 +27,7 @@ class BaseGradient {
 
   private:
     Graph& graph_;
-    std::vector<NodeId> x_;
+    std::map<NodeId, std::size_t> places_; ///< of the coordinates: i by x^i
     std::map<NodeId, Column> known_;
 };
 

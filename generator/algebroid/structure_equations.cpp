@@ -11,7 +11,7 @@ namespace {
 class Equations {
   public:
     Equations(BaseGradient& partial, const Algebroid& algebroid)
-        : partial_(partial), graph_(partial.graph()), algebroid_(algebroid), r_(algebroid.r())
+        : graph_(partial.graph()), algebroid_(algebroid), d_(partial, algebroid), r_(algebroid.r())
     {
     }
 
@@ -31,7 +31,7 @@ class Equations {
     void append_anchor()
     {
         std::vector<ExteriorForm> dd;
-        for (const NodeId x : algebroid_.x) dd.push_back(d(d(function_form(x))));
+        for (const NodeId x : algebroid_.x) dd.push_back(d_(d_(function_form(x))));
         append("anchor", dd, r_ * (r_ - std::min<std::size_t>(r_, 1)) / 2, false);
     }
 
@@ -39,7 +39,7 @@ class Equations {
     void append_jacobi()
     {
         std::vector<ExteriorForm> dd;
-        for (std::size_t v = 0; v < r_; ++v) dd.push_back(d(d(basis_form(graph_, v))));
+        for (std::size_t v = 0; v < r_; ++v) dd.push_back(d_(d_(basis_form(graph_, v))));
         append("jacobi", dd, r_ < 3 ? 0 : r_ * (r_ - 1) * (r_ - 2) / 6, true);
     }
 
@@ -47,7 +47,7 @@ class Equations {
     void append_differentials(const char* name, const std::vector<NodeId>& functions)
     {
         for (std::size_t k = 0; k < functions.size(); ++k) {
-            const ExteriorForm df = d(function_form(functions[k]));
+            const ExteriorForm df = d_(function_form(functions[k]));
             list_.trivial += r_ - df.components.size();
             for (const auto& [index, value] : df.components) list_.residuals.push_back({name, {index[0], k}, value});
         }
@@ -56,8 +56,6 @@ class Equations {
     [[nodiscard]] ResidualList take() { return std::move(list_); }
 
   private:
-    [[nodiscard]] ExteriorForm d(const ExteriorForm& w) { return differential(partial_, algebroid_, w); }
-
     /// Components of forms[k] as residuals (index, k); `count` components has each form at most.
     void append(const char* name, const std::vector<ExteriorForm>& forms, std::size_t count, bool negative)
     {
@@ -72,9 +70,9 @@ class Equations {
         list_.residuals.insert(list_.residuals.end(), residuals.begin(), residuals.end());
     }
 
-    BaseGradient& partial_;
     Graph& graph_;
     const Algebroid& algebroid_;
+    Differential d_;
     std::size_t r_;
     ResidualList list_;
 };

@@ -106,6 +106,15 @@ std::string form_to_derive(const Model& model)
     return model.discrete && !model.discrete->lagrangian ? "lagrange" : default_form(model);
 }
 
+/// Nobody waits for a flood on a terminal: how much there is, before it comes.
+void announce(const std::string& text, const std::string& file)
+{
+    constexpr std::size_t flood = 1'000'000; // bytes
+    if (text.size() < flood || file != "-") return;
+    write_standard_error(fmt::format("note: {:.1f} MB of equations follow; -o FILE writes them to a file\n",
+                                     static_cast<double>(text.size()) / 1e6));
+}
+
 /// Forms of sections and functions of arrows have no module.
 void require_module_form(const std::string& form)
 {
@@ -147,7 +156,9 @@ ExitCode run_derive(Arguments arguments)
                : format == "json"  ? print_json(equations)
                                    : print_sympy(equation_module(checked.model, checked.system, equations)),
                format, warnings);
-    write_file(options.has("output") ? options.get("output") : "-", text.ends_with('\n') ? text : text + "\n");
+    const std::string file = options.has("output") ? options.get("output") : "-";
+    announce(text, file);
+    write_file(file, text.ends_with('\n') ? text : text + "\n");
     return ExitCode::done;
 }
 

@@ -10,13 +10,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace lagen {
 
 namespace {
 
-using linear::Eigenvalue;
 using linear::Matrix;
 
 const CommandSyntax linearize_syntax{
@@ -42,19 +39,15 @@ Matrix matrix_of(const std::vector<std::vector<double>>& rows, std::size_t colum
     return out;
 }
 
-/// Sorted; parts that are rounding are 0. Those of a certified equilibrium have been computed in many digits.
-std::vector<Eigenvalue> eigenvalues_of(const Equilibrium& found)
+std::vector<linear::MultipleEigenvalue> eigenvalues_of(const Equilibrium& found)
 {
-    double largest = 0;
-    for (const proof::Eigenvalue& each : found.eigenvalues)
-        largest = std::max(largest, std::abs(Eigenvalue(each.real, each.imaginary)));
-    const double rounding = (found.certified ? 1e-25 : 1e-12) * largest;
-    const auto clean = [&](double part) { return std::abs(part) <= rounding ? 0.0 : part; };
-    std::vector<Eigenvalue> out;
-    for (const proof::Eigenvalue& each : found.eigenvalues) out.emplace_back(clean(each.real), clean(each.imaginary));
-    std::ranges::sort(out, [](const Eigenvalue& a, const Eigenvalue& b) {
-        return a.real() != b.real() ? a.real() < b.real() : a.imag() < b.imag();
-    });
+    std::vector<linear::MultipleEigenvalue> out;
+    std::size_t count = 0;
+    for (const proof::Eigenvalue& each : found.eigenvalues) {
+        out.push_back({{each.real, each.imaginary}, each.multiplicity, each.spread});
+        count += each.multiplicity;
+    }
+    if (count != found.at.state.size()) throw InternalError("eigenvalues that are not as many as the states");
     return out;
 }
 
@@ -113,7 +106,7 @@ ExitCode run_linearize(Arguments arguments)
     const std::size_t n = states.size(), m = inputs.size();
     linear::LinearSystem system =
         linear::linear_system(matrix_of(found.A, n), matrix_of(found.B, m), matrix_of(found.leaf, n));
-    const std::vector<Eigenvalue> eigenvalues = eigenvalues_of(found);
+    const std::vector<linear::MultipleEigenvalue> eigenvalues = eigenvalues_of(found);
     LinearReport report{checked.model.name,
                         scene.name,
                         scene.form,
@@ -123,7 +116,6 @@ ExitCode run_linearize(Arguments arguments)
                         plant.starts.front(),
                         std::move(found),
                         std::move(system),
-                        eigenvalues,
                         {},
                         {}};
     report.modes = linear::modes_of(report.system, eigenvalues);

@@ -107,28 +107,29 @@ std::string failure_text(const Check& check, bool with_hint)
 /// "casimir f" of what one line of the model claims, an entry f[1,2] too; empty of every other check.
 std::string claim_of(const Check& check)
 {
+    if (check.name == "tangency") return check.name + " " + check.indices.back();
     if (check.name != "casimir" && check.name != "invariant") return "";
     return check.name + " " + family_name(check.indices.back());
 }
 
-/// Checks with a status, a hint only where it first occurs; of one claim the first three.
+/// Checks with a status, a hint only where it first occurs; of one claim the first, with the number of the others.
 std::string failures_text(const StructureReport& structure, ProofStatus status)
 {
-    constexpr std::size_t most = 20, most_of_claim = 3;
-    std::string text;
-    std::set<std::string> hints = {""};
+    constexpr std::size_t most = 20;
     std::map<std::string, std::size_t> of_claim;
+    for (const Check& check : structure.checks)
+        if (check.decision.status == status) ++of_claim[claim_of(check)];
+    std::string text;
+    std::set<std::string> hints = {""}, told;
     std::size_t count = 0;
     for (const Check& check : structure.checks) {
-        if (check.decision.status != status) continue;
         const std::string claim = claim_of(check);
-        if (!claim.empty() && ++of_claim[claim] > most_of_claim) continue;
-        if (++count <= most) text += failure_text(check, hints.insert(check.hint).second);
+        if (check.decision.status != status || (!claim.empty() && !told.insert(claim).second)) continue;
+        if (++count > most) continue;
+        text += failure_text(check, hints.insert(check.hint).second);
+        if (const std::size_t others = of_claim[claim] - 1; !claim.empty() && others > 0)
+            text += fmt::format("  and {} more of {}; --format json lists them all\n", others, claim);
     }
-    for (const auto& [claim, entries] : of_claim)
-        if (entries > most_of_claim)
-            text += fmt::format("\nand {} more of {} {} {}; --format json lists them all\n", entries - most_of_claim,
-                                claim, entries == most_of_claim + 1 ? "is" : "are", to_text(status));
     if (count > most)
         text += fmt::format("\n{} more are {}; --format json lists them all\n", count - most, to_text(status));
     return text;
@@ -168,6 +169,9 @@ const char* matrix_text(Regularity::Matrix matrix)
 std::string regularity_text(const Regularity& regularity)
 {
     if (regularity.kind == Regularity::Kind::absent) return "";
+    if (regularity.is_first_order())
+        return fmt::format("  {:<16}H is affine in the momenta: a first-order system ẋ = ρ(∂H/∂μ), with costates\n",
+                           "regularity");
     // Of a W that is not decided the rank is not known either.
     const std::string rank =
         regularity.kind == Regularity::Kind::undecided ? "" : fmt::format(", rank {}", regularity.rank);

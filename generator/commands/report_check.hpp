@@ -9,8 +9,8 @@
 namespace lagen {
 
 /// Text: verdict, counts in all and a kind of check, regularity, re-evaluation; then what is not proved (the first 20
-/// of each status, the first three of one Casimir or invariant) with its residual, witness and value, or evidence, and
-/// each hint once.
+/// of each status, the first of one Casimir, invariant or constraint) with its residual, witness and value, or
+/// evidence, and each hint once.
 [[nodiscard]] std::string report_text(const std::string& model, const Report& verified);
 
 /// 0, 1 or 2: valid, invalid, undecided.

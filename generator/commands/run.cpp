@@ -4,16 +4,21 @@
 #include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
 #include "commands/machine/places.hpp"
+#include "commands/machine/temporary_folder.hpp"
 #include "commands/machine/write_file.hpp"
 #include "commands/plot/overlay.hpp"
 #include "commands/run_morphism.hpp"
+#include "commands/scene/integrate_scene.hpp"
+#include "commands/scene/partial_rows.hpp"
 #include "commands/scene/range.hpp"
 #include "commands/scene/scene_options.hpp"
 #include "commands/scene/scene_run.hpp"
+#include "commands/scene/second_run.hpp"
 #include "commands/variations/variation_states.hpp"
 #include "elaborate/bind_parameters.hpp"
 #include "elaborate/elaborate.hpp"
 #include "elaborate/variational_model.hpp"
+#include "model/plain_names.hpp"
 #include "model/read_file.hpp"
 #include "model/scene_form.hpp"
 
@@ -68,18 +73,23 @@ const CommandSyntax run_syntax{
      {"sphere", nullptr, "curves in space lie on a sphere around the origin"},
      {"like", "NAME", "--plot draws what [scene.NAME.plot] says"},
      {"overlay", "NAME,..", "scenes that --plot draws as well, in the same panels (may be repeated)"},
+     {"second-run", nullptr,
+      "say what the state is worth, by a second run at a tenth of the tolerance or with half the step, however long "
+      "the "
+      "first one took; without it where that took at most 5 s"},
+     {"no-second-run", nullptr, "say nothing of it"},
      {"reconstruct", nullptr,
       "of a morphism that is bijective on the fibres: lift the motion of the target to the source too"},
      {"unchecked", nullptr, "go on although the model is refuted"},
      {"format,f", "FORMAT", "text or json", "text"}}};
 
-/// Of the variational method that is asked for; empty where it is another one.
-const char* scheme_of(const Options& options, const Model& model)
+/// The variational method that is asked for; null where it is another one.
+const MethodEntry* variational_method(const Options& options, const Model& model)
 {
     const std::string asked = options.get("method");
-    if (asked.empty() && model.scenes.empty()) return "";
+    if (asked.empty() && model.scenes.empty()) return nullptr;
     const MethodEntry* method = find_method(asked.empty() ? find_scene(model, options.get("scene")).method : asked);
-    return method == nullptr ? "" : method->scheme;
+    return method != nullptr && *method->scheme != '\0' ? method : nullptr;
 }
 
 /// The number of the first arrow that is asked for, which only a discrete motion from momenta has.
@@ -100,19 +110,20 @@ std::uint64_t branch_of(const Options& options, const Scene& scene, const SceneV
 }
 
 /// `picture`: what was drawn, or "". Where there is one a terminal is spared the rows.
-void tell(const Options& options, const RunOutcome& outcome, const std::string& picture, bool as_json)
+void tell(const Options& options, const RunOutcome& outcome, const std::vector<std::string>& known,
+          const std::string& picture, bool as_json)
 {
     if (as_json) {
         write_standard_output(report_json(outcome));
     } else {
         const bool spared = !picture.empty() && !options.has("output") && ::isatty(STDOUT_FILENO) == 1;
-        if (!options.has("output") && !spared) write_standard_output(to_csv(outcome.table));
+        if (!options.has("output") && !spared) write_standard_output(to_csv(outcome.table, known));
         write_standard_error(report_text(outcome));
         if (!picture.empty())
             write_standard_error(fmt::format("  picture in {}: {}{}\n", options.get("plot"), picture,
                                              spared ? "; the rows as CSV: -o FILE.csv, or into a pipe" : ""));
     }
-    write_standard_error(start_note(outcome) + drift_warnings(outcome));
+    write_standard_error(start_note(outcome) + run_warnings(outcome));
 }
 
 /// What --plot draws, told; `whole` becomes false where one of the runs drawn beside did not come to its end.
@@ -126,7 +137,7 @@ std::string draw(const Options& options, const SceneRun& run, const RunOutcome& 
         const OverlaidRun& other = others.emplace_back(options, run.checked(), run.scene(), name);
         runs.push_back(other.plotted());
         whole = whole && succeeded(other.outcome().status);
-        write_standard_error(report_text(other.outcome()) + drift_warnings(other.outcome()));
+        write_standard_error(report_text(other.outcome()) + run_warnings(other.outcome()));
     }
     return draw_scene(runs, options.get("plot"));
 }
@@ -144,6 +155,7 @@ ExitCode run_run(Arguments arguments)
     for (const char* word : {"curves", "equal", "points", "sphere", "like", "overlay"})
         if (options.has(word) && !options.has("plot"))
             throw UsageError(fmt::format("lagen run: --{} says what --plot draws: give --plot FILE.svg as well", word));
+    (void)second_run_of(options);
     for (const char* file : {"output", "plot"})
         if (options.has(file)) require_writable(options.get(file));
 
@@ -153,8 +165,8 @@ ExitCode run_run(Arguments arguments)
     if (options.has("reconstruct"))
         throw UsageError("lagen run: --reconstruct is of a morphism, and " + quote(path) + " is a model");
     CheckedModel checked = read(path, options.settings(), options.has("unchecked"));
-    if (const char* scheme = scheme_of(options, checked.model); *scheme != '\0')
-        checked.model = variational_model(std::move(checked.model), scheme);
+    if (const MethodEntry* method = variational_method(options, checked.model))
+        checked.model = variational_model(std::move(checked.model), method->scheme, method->name);
     const Model& model = checked.model;
     require_apart(options, model);
     // What a chart chooses is chosen for the equations that it ran: those of the values.
@@ -181,12 +193,17 @@ ExitCode run_run(Arguments arguments)
 
     bool whole = !accurate || confirm_accuracy(*accurate, run.record(), run.input());
 
+    const std::vector<std::string> known = all_names(model);
+    const InterruptsHeld held; // between programs, which they reach: rows are written first
     RunOutcome outcome = run.integrate();
+    if (is_interrupted(outcome)) return leave_rows(options, outcome.table, known, report_json(outcome), outcome.time);
     outcome.action = action_report(outcome, variations);
     if (const std::string file = options.get("output"); !file.empty())
-        write_file(file, file.ends_with(".json") ? report_json(outcome) : to_csv(outcome.table));
-    const std::string picture = draw(options, run, outcome, overlaid, whole);
-    tell(options, outcome, picture, as_json);
+        write_file(file, file.ends_with(".json") ? report_json(outcome) : to_csv(outcome.table, known));
+    std::string picture;
+    const bool drawn = is_uninterrupted([&] { picture = draw(options, run, outcome, overlaid, whole); });
+    tell(options, outcome, known, picture, as_json);
+    if (!drawn) throw InterruptedError("lagen: interrupted while drawing");
     return succeeded(outcome.status) && whole ? ExitCode::done : ExitCode::refuted;
 }
 

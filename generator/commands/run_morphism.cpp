@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/run_morphism.hpp"
 
+#include "commands/machine/temporary_folder.hpp"
 #include "commands/machine/write_file.hpp"
 #include "commands/morphism/defect.hpp"
 #include "commands/morphism/image_scene.hpp"
 #include "commands/morphism/lift.hpp"
 #include "commands/report_morphism.hpp"
+#include "commands/scene/partial_rows.hpp"
 #include "commands/scene/scene_options.hpp"
 #include "elaborate/elaborate_morphism.hpp"
 #include "elaborate/make_frame.hpp"
@@ -106,14 +108,25 @@ std::string object_json(const RunOutcome& outcome)
     return text;
 }
 
-void tell(const Options& options, const RunOutcome& source, const RunOutcome& target, const RunComparison& comparison)
+std::string report_of(const Options& options, const RunOutcome& source, const RunOutcome& target,
+                      const RunComparison& comparison)
 {
-    const std::string csv = to_csv(comparison.table);
     const std::string lift =
         options.has("reconstruct") ? fmt::format(",\n \"reconstruction\": {}", defect_json(comparison, true)) : "";
-    const std::string report =
-        fmt::format("{{\"source\": {},\n \"target\": {},\n \"defect\": {}{}}}\n", object_json(source),
-                    object_json(target), defect_json(comparison, false), lift);
+    return fmt::format("{{\"source\": {},\n \"target\": {},\n \"defect\": {}{}}}\n", object_json(source),
+                       object_json(target), defect_json(comparison, false), lift);
+}
+
+/// There is no target to compare the source with.
+std::string report_of_source(const RunOutcome& source)
+{
+    return fmt::format("{{\"source\": {},\n \"target\": null,\n \"defect\": null}}\n", object_json(source));
+}
+
+void tell(const Options& options, const RunOutcome& source, const RunOutcome& target, const RunComparison& comparison)
+{
+    const std::string csv = to_csv(comparison.table, {});
+    const std::string report = report_of(options, source, target, comparison);
     if (options.has("output"))
         write_file(options.get("output"), options.get("output").ends_with(".json") ? report : csv);
     if (options.get("format") == "json") {
@@ -122,7 +135,7 @@ void tell(const Options& options, const RunOutcome& source, const RunOutcome& ta
         if (!options.has("output")) write_standard_output(csv);
         write_standard_error(report_text(source) + report_text(target) + defect_text(comparison));
     }
-    write_standard_error(drift_warnings(source) + drift_warnings(target));
+    write_standard_error(run_warnings(source) + run_warnings(target));
 }
 
 /// Theorem 3 is of isomorphisms of fibres, and of motions in continuous time.
@@ -153,8 +166,7 @@ void add_lifts(const LiftedTarget& lifted, const SceneRun& source, Scene& image,
 ExitCode tell_alone(const Options& options, const RunOutcome& source)
 {
     if (options.get("format") == "json")
-        write_standard_output(
-            fmt::format("{{\"source\": {},\n \"target\": null,\n \"defect\": null}}\n", object_json(source)));
+        write_standard_output(report_of_source(source));
     else
         write_standard_error(report_text(source));
     return ExitCode::refuted;
@@ -185,7 +197,10 @@ ExitCode run_morphism(const Options& options, const std::shared_ptr<const Source
 
     SceneRun source(options, from, method.name, {"source of a morphism"});
     source.prepare(std::move(scene), method, options.has("at") && !options.has("t-end"));
+    const InterruptsHeld held; // between programs, which they reach: rows are written first
     const WholeRun here = run_of(source, asked);
+    if (is_interrupted(here.outcome))
+        return leave_rows(options, here.outcome.table, {}, report_of_source(here.outcome), here.outcome.time);
     if (here.whole.count == 0) return tell_alone(options, here.outcome);
 
     LiftedTarget lifted;
@@ -201,7 +216,11 @@ ExitCode run_morphism(const Options& options, const std::shared_ptr<const Source
     target.prepare(std::move(image), method, false);
     const WholeRun there = run_of(target, states);
 
-    tell(options, here.outcome, there.outcome, compare(projection, here.whole, there.whole));
+    const RunComparison comparison = compare(projection, here.whole, there.whole);
+    if (is_interrupted(there.outcome))
+        return leave_rows(options, comparison.table, {}, report_of(options, here.outcome, there.outcome, comparison),
+                          there.outcome.time);
+    tell(options, here.outcome, there.outcome, comparison);
     const bool done = succeeded(here.outcome.status) && succeeded(there.outcome.status);
     return done ? ExitCode::done : ExitCode::refuted;
 }

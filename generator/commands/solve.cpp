@@ -13,6 +13,7 @@
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/evaluate.hpp"
 #include "graph/core/lower.hpp"
+#include "model/scene_form.hpp"
 #include "pipeline.hpp"
 #include "verify/relative_equilibria.hpp"
 
@@ -66,12 +67,12 @@ const char* reason_of(const RelativeEquilibrium& found)
 std::string eigenvalues_text(const RelativeEquilibrium& found)
 {
     std::string text;
-    for (const proof::Eigenvalue& each : found.eigenvalues) {
-        const double real = std::abs(each.real) < 1e-12 ? 0 : each.real;
-        const double imaginary = std::abs(each.imaginary) < 1e-12 ? 0 : each.imaginary;
-        text += text.empty() ? "" : ", ";
-        text += imaginary == 0 ? fmt::format("{:.6g}", real) : fmt::format("{:.6g} {:+.6g}i", real, imaginary);
-    }
+    for (const proof::Eigenvalue& each : found.eigenvalues)
+        for (std::size_t k = 0; k < each.multiplicity; ++k) {
+            text += text.empty() ? "" : ", ";
+            text += each.imaginary == 0 ? fmt::format("{:.6g}", each.real)
+                                        : fmt::format("{:.6g} {:+.6g}i", each.real, each.imaginary);
+        }
     return text;
 }
 
@@ -173,7 +174,8 @@ std::string solution_json(const Solution& solution, const Graph& graph)
         }
         json.key("eigenvalues").begin_array();
         for (const proof::Eigenvalue& each : found.eigenvalues)
-            json.begin_array().value(each.real).value(each.imaginary).end_array();
+            for (std::size_t k = 0; k < each.multiplicity; ++k)
+                json.begin_array().value(each.real).value(each.imaginary).end_array();
         json.end_array().key("stability").value(to_text(found.stability));
         json.key("reason").value(reason_of(found)).end_object();
     }

@@ -10,7 +10,7 @@
 #include "elaborate/bind_parameters.hpp"
 #include "model/scene_form.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -96,6 +96,16 @@ std::string summary(const std::string& path, const SweepFile& file, const std::m
     }
     return fmt::format("{}: {} row{}{}\n{}", path, file.rows(), file.rows() == 1 ? "" : "s",
                        failed == 0 ? "" : fmt::format(", {} failed: {}", failed, kinds), why);
+}
+
+/// Of rows that were computed now.
+std::string small_lanes_warning(const SweepRun& run, bool resumed)
+{
+    const std::uint64_t count = run.rows_below_absolute();
+    if (count == 0) return "";
+    return below_absolute_warning(fmt::format("in {}{} row{} {}", resumed ? "at least " : "", count,
+                                              count == 1 ? "" : "s", fmt::join(run.lanes_below_absolute(), ", ")),
+                                  "");
 }
 
 void merge_parts(const Options& options)
@@ -201,6 +211,7 @@ ExitCode run_sweep(Arguments arguments)
             "it can be proved make it hold for all of them\n",
             resumed ? "at least " : "", run.unproved() == 1 ? "1 row is" : fmt::format("{} rows are", run.unproved()),
             proved_for_alone(record.proved_for)));
+    write_standard_error(small_lanes_warning(run, resumed));
     if (path != output && merge_ranks(output, identity))
         write_standard_error(fmt::format("{}: {} rows of {} parts\n", output, rows.count, shard.count));
     return ExitCode::done;

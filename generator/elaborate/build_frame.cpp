@@ -28,9 +28,9 @@ struct FrameFormulas {
     bool both_orders = false;                               ///< the inner block lists a pair in both orders
 };
 
-class FrameBuilder {
+class MovingFrameBuilder {
   public:
-    FrameBuilder(BuildWorkspace& work, const AlgebroidBlock& block, const BlockParts& inner)
+    MovingFrameBuilder(BuildWorkspace& work, const AlgebroidBlock& block, const BlockParts& inner)
         : work_(work), graph_(work.graph()), block_(block), inner_(work.lowered(block.of[0], inner)),
           r_(block.fibre.size()), rows_(r_)
     {
@@ -201,7 +201,7 @@ class FrameBuilder {
 
 BlockParts build_frame(BuildWorkspace& work, const AlgebroidBlock& block, const BlockParts& inner)
 {
-    return FrameBuilder(work, block, inner).build();
+    return MovingFrameBuilder(work, block, inner).build();
 }
 
 /// rho(X_a) = rho^i_a d/dx^i, rho(V_a) = d/dy^a (or d/dmu_a); [X_a, X_b] = C^c_ab X_c, the other brackets are zero.

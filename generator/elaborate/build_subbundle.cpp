@@ -9,8 +9,8 @@
 namespace lagen {
 namespace {
 
-constexpr std::size_t most_minors = 64;    ///< choices of rows whose determinants are compared
-constexpr std::size_t most_choices = 4096; ///< choices of rows in all; most determinants are zero by structure
+constexpr std::size_t most_row_choices = 64; ///< choices of rows whose determinants are compared
+constexpr std::size_t most_choices = 4096;   ///< choices of rows in all; most determinants are zero by structure
 
 class SubbundleBuilder {
   public:
@@ -101,7 +101,7 @@ class SubbundleBuilder {
             if (graph_.is_zero(determinant)) continue;
             const Tree text = work_.readable(determinant);
             if (text != nullptr) choices.push_back({to_text(text).size(), rows, determinant});
-        } while (choices.size() < most_minors && tried < most_choices && next_places(places, block_.base.size()));
+        } while (choices.size() < most_row_choices && tried < most_choices && next_places(places, block_.base.size()));
         std::ranges::stable_sort(choices, {}, &Choice::cost);
         bool undecided = false;
         for (const Choice& choice : choices) {

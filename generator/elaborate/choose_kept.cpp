@@ -14,6 +14,22 @@ namespace {
 constexpr std::size_t most_kept_choices = 5000;
 constexpr std::size_t listed_minors = 3;
 
+/// The factors of a minor that the domain does not keep from zero, without signs and exponents.
+void append_open(BuildWorkspace& work, const Tree& minor, std::vector<Tree>& open)
+{
+    switch (minor->kind) {
+    case TreeKind::number: return;
+    case TreeKind::multiply:
+        for (const Tree& factor : minor->arguments) append_open(work, factor, open);
+        return;
+    case TreeKind::negate:
+    case TreeKind::divide:
+    case TreeKind::power: return append_open(work, minor->arguments[0], open);
+    default: break;
+    }
+    if (!ZeroDecider(work.graph(), work.setting()).proves_nonzero(work.lower(minor))) open.push_back(minor);
+}
+
 /// "v_x, v_th"
 std::string listed_names(const std::vector<Symbol>& symbols, const Places& places)
 {
@@ -53,7 +69,10 @@ KeptChoice choose_free(BuildWorkspace& work, const ConstraintRows& rows, const s
         }
         const Tree text = work.readable(minor);
         if (text == nullptr) continue;
-        if (!choice.first) choice.first = text;
+        std::vector<Tree> open;
+        append_open(work, text, open);
+        if (open.empty()) open = {text}; // the product is not shown, though its factors are
+        if (choice.open.empty() || open.size() < choice.open.size()) choice.open = std::move(open);
         if (++listed <= listed_minors)
             choice.minors += fmt::format("{}{} (keeping {})", listed == 1 ? "" : ", ", to_text(text),
                                          listed_names(coordinates, kept));
@@ -79,7 +98,7 @@ std::vector<std::size_t> choose_kept(const Model& model)
         for (const NodeId slope : gradient(work.graph(), work.lower(constraint), Y)) rows.B.push_back(slope);
     const KeptChoice choice = choose_free(work, rows, ambient);
     if (choice.kept) return *choice.kept;
-    if (!choice.first) return first_places(r - m);
+    if (choice.minors.empty()) return first_places(r - m);
     throw MathematicsError(
         fmt::format("the constraints of model '{}' are not proved to leave {} of its ambient fibre coordinates free at "
                     "every point of the domain: the minors are {}",

@@ -22,8 +22,8 @@ struct ConstraintRows {
 /// The first choice that is proved, and what stands in the way of the others.
 struct KeptChoice {
     std::optional<Places> kept;
-    std::string minors;        ///< "2*z (keeping v_x, v_y), .."
-    std::optional<Tree> first; ///< the first of these minors
+    std::string minors;     ///< "2*z (keeping v_x, v_y), .."; empty where all are zero
+    std::vector<Tree> open; ///< factors of the minor with the fewest whose signs are not known, without their own
 };
 
 /// Of all choices of r - m columns, in lexicographic order, or of `wanted` alone.

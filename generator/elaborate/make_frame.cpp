@@ -72,18 +72,6 @@ mpz_class whole_factor(const Tree& tree)
     }
 }
 
-/// "x > 0", "y + 1 > 0" of 2*x*(y + 1): factors one by one, as the signs of a domain are looked for. A run would step
-/// over x != 0.
-std::string conditions_of(const Tree& minor)
-{
-    const std::vector<Tree> factors = minor->kind == TreeKind::multiply ? minor->arguments : std::vector{minor};
-    std::string text;
-    for (const Tree& factor : factors)
-        if (factor->kind != TreeKind::number)
-            text += fmt::format("{}\"{} > 0\"", text.empty() ? "" : ", ", to_text(factor));
-    return text;
-}
-
 class FrameBuilder {
   public:
     FrameBuilder(const Model& model, const LevelSetRequest& request)
@@ -253,7 +241,27 @@ class FrameBuilder {
                          "small?");
     }
 
-    [[noreturn]] void refuse_charts(const KeptChoice& choice, bool regular) const
+    /// "x > 0", "y + 1 < 0" with what the domain says already: factors of a minor one by one, as the signs of a domain
+    /// are looked for; a run would step over x != 0. The side is one on which the model has points.
+    [[nodiscard]] std::vector<std::string> chart_conditions(const KeptChoice& choice)
+    {
+        std::vector<std::string> conditions;
+        for (const Tree& inequality : model_.base.domain)
+            conditions.push_back(fmt::format("\"{}\"", to_text(inequality)));
+        Graph& graph = work_->graph();
+        ProofSetting setting = work_->setting();
+        for (const Tree& factor : choice.open) {
+            const NodeId f = work_->lower(factor);
+            setting.domain.push_back(graph.apply(Op::greater, f, graph.constant(0)));
+            const auto decider = ZeroDecider::make(graph, setting);
+            const bool above = decider != nullptr && decider->sample_point();
+            if (!above) setting.domain.back() = graph.apply(Op::less, f, graph.constant(0));
+            conditions.push_back(fmt::format("\"{} {} 0\"", to_text(factor), above ? ">" : "<"));
+        }
+        return conditions;
+    }
+
+    [[noreturn]] void refuse_charts(const KeptChoice& choice, bool regular)
     {
         const bool is_curve = n_ - m_ == 1;
         std::string text =
@@ -264,10 +272,10 @@ class FrameBuilder {
             text += "no single coordinate is proved to parametrise all of it";
         else
             text += fmt::format("no {} of its coordinates are proved to parametrise all of it", n_ - m_);
-        if (!choice.first) throw ModelError(text, request_.where, "the constraints fix one of them: keep others");
-        std::string hint =
-            fmt::format("[base] domain = [{}] makes a chart of the first, and < 0 the one on the other side",
-                        conditions_of(*choice.first));
+        if (choice.minors.empty())
+            throw ModelError(text, request_.where, "the constraints fix one of them: keep others");
+        std::string hint = fmt::format("[base] domain = [{}] makes a chart, and the other side another",
+                                       fmt::join(chart_conditions(choice), ", "));
         if (is_curve && regular) hint += "; a name of your own in [fibre], \"u\", takes a tangent that needs no chart";
         throw ModelError(text + fmt::format(": it needs several charts, where the minors {} are not 0", choice.minors),
                          request_.where, hint);

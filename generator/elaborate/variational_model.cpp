@@ -250,7 +250,7 @@ void give_groupoid(Model& model)
 
 } // namespace
 
-Model variational_model(Model model, const std::string& scheme)
+Model variational_model(Model model, const std::string& scheme, const std::string& method)
 {
     if (!model.lagrangian)
         throw MathematicsError(
@@ -264,6 +264,7 @@ Model variational_model(Model model, const std::string& scheme)
     model.discrete = std::move(block);
     for (Scene& scene : model.scenes) { // the same motions, in steps, with a row each where the scene counts rows
         if (is_form(scene.form, FormKind::lagrange)) scene.form.clear();
+        scene.stepped_by = method;
         if (scene.sampling.kind == Sampling::Kind::count) scene.sampling = {};
     }
     return model;

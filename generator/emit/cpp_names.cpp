@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Names of a model as C++ identifiers.
 #include "emit/identifiers.hpp"
+#include "emit/macro_names.hpp"
 #include "emit/print_header.hpp"
 
 #include <algorithm>
@@ -27,23 +28,19 @@ constexpr std::string_view keywords[] = {
     "xor_eq",
 };
 
-/// Macros and functions that <cmath>, <complex.h>, <cstdlib> and their like may put into the global namespace.
+/// Functions and macros in small letters that <cmath>, <complex.h>, <cstdlib> and their like may put into the global
+/// namespace.
+// clang-format off
 constexpr std::string_view library[] = {
-    "I",         "M_1_PI",  "M_2_PI",  "M_2_SQRTPI", "M_E",       "M_LN10",     "M_LN2",       "M_LOG10E", "M_LOG2E",
-    "M_PI",      "M_PI_2",  "M_PI_4",  "M_SQRT1_2",  "M_SQRT2",   "NAN",        "INFINITY",    "HUGE_VAL", "HUGE_VALF",
-    "HUGE_VALL", "NULL",    "EOF",     "DOMAIN",     "SING",      "OVERFLOW",   "UNDERFLOW",   "PLOSS",    "TLOSS",
-    "RAND_MAX",  "assert",  "errno",   "linux",      "unix",      "major",      "minor",       "stdin",    "stdout",
-    "stderr",    "signgam", "complex", "imaginary",  "abs",       "acos",       "acosh",       "asin",     "asinh",
-    "atan",      "atan2",   "atanh",   "cbrt",       "ceil",      "copysign",   "cos",         "cosh",     "div",
-    "drem",      "erf",     "erfc",    "exp",        "exp10",     "exp2",       "expm1",       "fabs",     "fdim",
-    "finite",    "floor",   "fma",     "fmax",       "fmin",      "fmod",       "frexp",       "gamma",    "hypot",
-    "ilogb",     "index",   "isinf",   "isnan",      "j0",        "j1",         "jn",          "labs",     "ldexp",
-    "lgamma",    "llrint",  "llround", "log",        "log10",     "log1p",      "log2",        "logb",     "lrint",
-    "lround",    "modf",    "nan",     "nearbyint",  "nextafter", "nexttoward", "pow",         "pow10",    "remainder",
-    "remquo",    "rint",    "round",   "scalb",      "scalbln",   "scalbn",     "significand", "sin",      "sincos",
-    "sinh",      "sqrt",    "tan",     "tanh",       "tgamma",    "time",       "trunc",       "y0",       "y1",
-    "yn",
+    "DOMAIN", "SING", "PLOSS", "TLOSS", "assert", "major", "minor", "signgam", "complex", "imaginary", "abs", "acos",
+    "acosh", "asin", "asinh", "atan", "atan2", "atanh", "cbrt", "ceil", "copysign", "cos", "cosh", "div", "drem",
+    "erf", "erfc", "exp", "exp10", "exp2", "expm1", "fabs", "fdim", "finite", "floor", "fma", "fmax", "fmin", "fmod",
+    "frexp", "gamma", "hypot", "ilogb", "index", "isinf", "isnan", "j0", "j1", "jn", "labs", "ldexp", "lgamma",
+    "llrint", "llround", "log", "log10", "log1p", "log2", "logb", "lrint", "lround", "modf", "nan", "nearbyint",
+    "nextafter", "nexttoward", "pow", "pow10", "remainder", "remquo", "rint", "round", "scalb", "scalbln", "scalbn",
+    "significand", "sin", "sincos", "sinh", "sqrt", "tan", "tanh", "tgamma", "time", "trunc", "y0", "y1", "yn",
 };
+// clang-format on
 
 /// Types and namespaces that the header itself uses.
 constexpr std::string_view own[] = {
@@ -53,7 +50,8 @@ constexpr std::string_view own[] = {
 
 bool is_reserved(std::string_view name)
 {
-    return std::ranges::count(keywords, name) + std::ranges::count(library, name) + std::ranges::count(own, name) > 0;
+    return std::ranges::count(keywords, name) + std::ranges::count(library, name) + std::ranges::count(own, name) > 0 ||
+           is_macro_name(name);
 }
 
 } // namespace

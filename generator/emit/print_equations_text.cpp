@@ -4,6 +4,7 @@
 #include "emit/print_equations.hpp"
 #include "emit/print_equations_terms.hpp"
 #include "emit/text_block.hpp"
+#include "expression/letters.hpp"
 
 #include <fmt/core.h>
 
@@ -198,20 +199,9 @@ bool bears_dot(const std::string& name)
     return letter(name[0]) && (name.size() == 1 || begins_index(name[1]));
 }
 
-/// Composed characters where Unicode has them (normal form C), else the letter and a combining dot.
 std::string dotted(const std::string& name)
 {
-    static constexpr std::pair<char, const char*> composed[] = {
-        {'a', "ȧ"}, {'b', "ḃ"}, {'c', "ċ"}, {'d', "ḋ"}, {'e', "ė"}, {'f', "ḟ"}, {'g', "ġ"}, {'h', "ḣ"},
-        {'m', "ṁ"}, {'n', "ṅ"}, {'o', "ȯ"}, {'p', "ṗ"}, {'r', "ṙ"}, {'s', "ṡ"}, {'t', "ṫ"}, {'w', "ẇ"},
-        {'x', "ẋ"}, {'y', "ẏ"}, {'z', "ż"}, {'A', "Ȧ"}, {'B', "Ḃ"}, {'C', "Ċ"}, {'D', "Ḋ"}, {'E', "Ė"},
-        {'F', "Ḟ"}, {'G', "Ġ"}, {'H', "Ḣ"}, {'I', "İ"}, {'M', "Ṁ"}, {'N', "Ṅ"}, {'O', "Ȯ"}, {'P', "Ṗ"},
-        {'R', "Ṙ"}, {'S', "Ṡ"}, {'T', "Ṫ"}, {'W', "Ẇ"}, {'X', "Ẋ"}, {'Y', "Ẏ"}, {'Z', "Ż"}};
-    if (!bears_dot(name)) return "d/dt " + name;
-    for (const auto& [letter, text] : composed)
-        if (name[0] == letter) return text + name.substr(1);
-    const std::size_t size = static_cast<unsigned char>(name[0]) >= 0x80 ? 2 : 1;
-    return name.substr(0, size) + "\u0307" + name.substr(size);
+    return bears_dot(name) ? with_dot(name) : "d/dt " + name;
 }
 
 std::vector<std::pair<bool, std::string>> mass_terms(const Equation& equation)

@@ -7,7 +7,7 @@ namespace lagen {
 
 namespace {
 
-constexpr std::size_t width = 120;
+constexpr std::size_t line_width = 120;
 
 /// Where to break so that the first part has at most `room` bytes: behind the last space outside of a string literal,
 /// else behind the first space beyond it; npos where there is none.
@@ -36,7 +36,7 @@ void TextBlock::line(std::string_view text)
     std::size_t indentation = 4 * static_cast<std::size_t>(level_);
     bool first = true;
     while (true) {
-        const std::size_t room = width - indentation;
+        const std::size_t room = line_width - indentation;
         const std::size_t cut = text.size() <= room ? std::string_view::npos : find_break(text, room);
         text_.append(indentation, ' ').append(text.substr(0, cut)) += '\n';
         if (cut == std::string_view::npos) return;
@@ -53,7 +53,7 @@ void TextBlock::list(std::string_view prefix, const std::vector<std::string>& it
     std::size_t used = indentation;
     for (std::size_t k = 0; k < items.size(); ++k) {
         const std::string item = items[k] + (k + 1 < items.size() ? "," : std::string(suffix));
-        if (used + row.size() + 1 + item.size() > width && k > 0) {
+        if (used + row.size() + 1 + item.size() > line_width && k > 0) {
             text_.append(used, ' ').append(row) += '\n';
             used = indentation + 8;
             row.clear();

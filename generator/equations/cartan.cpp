@@ -54,8 +54,9 @@ class CartanDerivation {
     {
         EquationBlock block{title, formula, latex, {}};
         for (const auto& [index, value] : form.components) {
+            const NodeId shown = on_group(graph_, *system_.groupoid, {system_.groupoid->arrow}, value);
             Equation equation =
-                symbolic_.equation(LeftSide::component, symbol, {symbolic_.lower(to_tree(graph_, value))});
+                symbolic_.equation(LeftSide::component, symbol, {symbolic_.lower(to_tree(graph_, shown))});
             if (equation.groups.empty()) continue;
             for (const std::size_t k : index) equation.arguments.push_back(section_name(k % system_.r()));
             block.equations.push_back(std::move(equation));

@@ -2,6 +2,7 @@
 #include "equations/discrete.hpp"
 
 #include "equations/given_blocks.hpp"
+#include "graph/calculus/differentiate.hpp"
 #include "graph/core/lower.hpp"
 #include "mechanics/discrete.hpp"
 #include "model/families.hpp"
@@ -55,7 +56,10 @@ class DiscreteDerivation {
     }
 
   private:
-    [[nodiscard]] GiNaC::ex value(NodeId node) { return symbolic_.lower(to_tree(graph_, node)); }
+    [[nodiscard]] GiNaC::ex value(NodeId node)
+    {
+        return symbolic_.lower(to_tree(graph_, on_group(graph_, groupoid_, {groupoid_.arrow, second_arrow()}, node)));
+    }
 
     /// x_next = x.W
     [[nodiscard]] EquationBlock targets()
@@ -127,6 +131,15 @@ void require_written_discrete(const System& system)
                                    ? "--form lagrange derives the equations of the L that it is made of; or "
                                      "write it out, [discrete] L = \"..\" over x, x_next and the element"
                                    : "[discrete] L = \"..\" over x, x_next and the element");
+}
+
+NodeId on_group(Graph& graph, const Groupoid& groupoid, std::initializer_list<Arrow> arrows, NodeId node)
+{
+    Replacements constant;
+    for (const Arrow& arrow : arrows)
+        for (const auto& entry : constant_entries(graph, groupoid, arrow.W)) constant.push_back(entry);
+    const auto shown = substitute_where_defined(graph, std::vector{node}, constant);
+    return shown ? shown->front() : node;
 }
 
 void add_arrow_names(SymbolicModel& symbolic, const Graph& graph, std::initializer_list<Arrow> arrows)

@@ -14,6 +14,9 @@ namespace lagen {
 /// Throws MathematicsError likewise.
 void require_written_discrete(const System& system);
 
+/// A function of arrows without the entries of their matrices that are the same on the whole group.
+[[nodiscard]] NodeId on_group(Graph& graph, const Groupoid& groupoid, std::initializer_list<Arrow> arrows, NodeId node);
+
 /// Coordinates of these arrows, and the step, behind the names of the model in the order of terms.
 void add_arrow_names(SymbolicModel& symbolic, const Graph& graph, std::initializer_list<Arrow> arrows);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "equations/hamilton.hpp"
 
+#include "activity.hpp"
 #include "equations/given_blocks.hpp"
 #include "equations/legendre.hpp"
 #include "equations/poisson.hpp"
@@ -114,7 +115,9 @@ class HamiltonDerivation {
                 : FormulaTerm{"-μ_c C^c_ab ∂H/∂μ_b", R"(-\mu_c\, C^c_{ab}\, \frac{\partial H}{\partial \mu_b})"};
         const FormulaTerm force{"Q_a", "Q_a"};
         EquationBlock block{"equations of motion", "μ̇_a", R"(\dot \mu_a)", {}};
+        Activity activity("equations of motion", r());
         for (std::size_t a = 0; a < r(); ++a) {
+            activity.next();
             Equation next{LeftSide::time_derivative, symbolic_.momentum_name(a), {}, {}};
             next.groups = symbolic_.simplified(
                 {{anchor.label, in_velocities_ ? total(symbolic_.along_anchor(a, lagrangian_))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "equations/lagrange.hpp"
 
+#include "activity.hpp"
 #include "equations/given_blocks.hpp"
 #include "expression/parse.hpp"
 #include "model/form.hpp"
@@ -62,7 +63,9 @@ class LagrangeDerivation {
     [[nodiscard]] EquationBlock momentum_form() const
     {
         EquationBlock block{"equations of motion (momentum form)", "ṗ_a", R"(\dot p_a)", {}};
+        Activity activity("momentum form", r());
         for (std::size_t a = 0; a < r(); ++a) {
+            activity.next();
             Equation next{LeftSide::time_derivative, symbolic_.momentum_name(a), {}, {}};
             // Each group for itself: nothing cancels between the momenta and L.
             for (const Group& group :
@@ -82,7 +85,9 @@ class LagrangeDerivation {
                                 R"(-\frac{\partial^2 L}{\partial y^a \partial x^i}\, \rho^i_b\, y^b)"};
         const FormulaTerm rate{"-∂²L/∂y^a∂t", R"(-\frac{\partial^2 L}{\partial y^a \partial t})"};
         EquationBlock block{"equations of motion (acceleration form)", "W_ab ẏ^b", R"(W_{ab}\, \dot y^b)", {}};
+        Activity activity("acceleration form", r());
         for (std::size_t a = 0; a < r(); ++a) {
+            activity.next();
             Equation next{LeftSide::time_derivative, fibre_name(a), {}, {}};
             for (std::size_t b = 0; b < r(); ++b)
                 for (TermGroup& mass :

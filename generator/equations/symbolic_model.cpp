@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "equations/symbolic_model.hpp"
 
+#include "activity.hpp"
 #include "equations/rewrite_tree.hpp"
 #include "model/total_cost.hpp"
 #include "notation/latex_names.hpp"
@@ -372,6 +373,7 @@ EquationSet derived(const Model& model, const char* equations, Definitions defin
 
 EquationSet derived(const Model& model, const char* equations, const std::function<EquationSet()>& derivation)
 {
+    const Activity activity(fmt::format("deriving {}", equations));
     return with_ginac(fmt::format("{} of model '{}' could not be derived", equations, model.name), derivation);
 }
 

@@ -10,6 +10,13 @@
 
 namespace lagen {
 
+/// An index that is many, 2..n, or ':' without arguments: an application of what no text can call.
+inline constexpr std::string_view range_name = "..";
+[[nodiscard]] inline bool is_range(const TreeNode& node)
+{
+    return node.kind == TreeKind::apply && node.name == range_name;
+}
+
 /// A closed tree with its size.
 struct ClosedTree {
     Tree tree; ///< null: not asked for yet
@@ -23,6 +30,8 @@ struct Closed {
     std::vector<ClosedTree> entries;    ///< by rows; empty or null trees where they are not made yet
     std::string family;                 ///< not empty: the entries are the symbols entry_name(family, shape, k)
     std::shared_ptr<Closed> inverse_of; ///< not null: the inverse of that matrix
+    /// Of an index that is a range, its ends, nothing for one that is no integer constant. A range poses as a scalar.
+    std::vector<std::optional<long>> range;
 
     /// In a function's body that is checked on its own, a parameter of unknown shape and what depends on it. It poses
     /// as a scalar, and nothing is said of shapes.

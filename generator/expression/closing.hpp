@@ -58,6 +58,7 @@ class Expansion::Closing {
 
     Value run(Result result);
     Result enter(const Tree& tree, const std::shared_ptr<OpenBody>& body);
+    Tree as_printed(const TreeNode& node, const OpenBody& body) const;
     Result enter_name(const Tree& tree, const std::shared_ptr<OpenBody>& body);
     Result advance();
     Result finish_definition();
@@ -77,6 +78,10 @@ class Expansion::Closing {
     const Definition& function_of(const TreeNode& node, const OpenBody& body) const;
     /// What an application of diff, grad, jacobian or Dt is; null for a function of the model and all else.
     const DerivativeEntry* derivative_of(const TreeNode& node) const;
+    [[nodiscard]] bool applies_function(const TreeNode& node) const
+    {
+        return node.kind == TreeKind::apply && !is_range(node) && derivative_of(node) == nullptr;
+    }
     static void require_arity(const TreeNode& node, const DerivativeEntry& entry);
     Value differentiate(const Maker& make, const Tree& tree, std::span<const Value> arguments) const;
     Value rate_of(const Maker& make, const Tree& tree, Closed& X) const;

@@ -20,7 +20,7 @@ bool is_scalar(const Value& value)
 /// Every argument a scalar, and a scalar for a result.
 bool of_scalars(const TreeNode& node, std::span<const Value> arguments)
 {
-    if (node.kind == TreeKind::array || node.kind == TreeKind::index) return false;
+    if (node.kind == TreeKind::array || node.kind == TreeKind::index || is_range(node)) return false;
     if (node.kind == TreeKind::call && entry_of(node.function).array) return false;
     return std::all_of(arguments.begin(), arguments.end(), is_scalar);
 }
@@ -86,6 +86,7 @@ Value combine_arrays(const Maker& maker, const Tree& tree, std::span<const Value
     switch (tree->kind) {
     case TreeKind::array: return join_entries(maker, tree, arguments);
     case TreeKind::index: return pick_entry(maker, tree, arguments);
+    case TreeKind::apply: return close_range(tree, arguments);
     case TreeKind::negate: return negate_array(maker, arguments[0]);
     case TreeKind::add: return add_values(maker, arguments, tree->arguments);
     case TreeKind::multiply: return multiply_values(maker, arguments);

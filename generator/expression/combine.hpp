@@ -23,8 +23,10 @@ namespace lagen {
 
 /// [a, b], [[a, b], [c, d]].
 [[nodiscard]] Value join_entries(const Maker& maker, const Tree& tree, std::span<const Value> entries);
-/// x[i], W[i,j].
+/// x[i], W[i,j], and of ranges x[2..n], W[i,:], W[1..2,1..2]: a range keeps its dimension, an index drops it.
 [[nodiscard]] Value pick_entry(const Maker& maker, const Tree& tree, std::span<const Value> arguments);
+/// A range, which `pick_entry` takes for an index.
+[[nodiscard]] Value close_range(const Tree& tree, std::span<const Value> ends);
 
 /// A built-in function with a vector or matrix among its arguments or for its value.
 [[nodiscard]] Value call_on_arrays(const Maker& maker, const Tree& tree, std::span<const Value> arguments);

@@ -14,13 +14,10 @@ std::string called(const Tree& array)
     return array->kind == TreeKind::name ? quote(array->name) : quote(to_text(array));
 }
 
-/// The index number `which` (from 1) as an offset from 0 below `count`.
-std::size_t offset_of(const Tree& tree, std::size_t which, const Closed& index, std::size_t count)
+/// The offset from 0, below `count`, of the entry that `value`, which is `written`, asks for as index number `which`.
+std::size_t offset_of(const Tree& tree, std::size_t which, const Tree& written, std::optional<long> value,
+                      std::size_t count)
 {
-    const Tree& written = tree->arguments[which];
-    if (index.shape.rank != Rank::scalar)
-        refuse(written, fmt::format("an index is {}", to_text(index.shape)), "an index is an integer");
-    const std::optional<long> value = integer_of(index);
     if (!value)
         refuse(written, fmt::format("the index {} is not an integer constant", quote(to_text(written))),
                "an index is made of integers, sizes, and the indices of sum and product");
@@ -32,6 +29,30 @@ std::size_t offset_of(const Tree& tree, std::size_t which, const Closed& index, 
                literal ? "" : fmt::format("{} is {} here", quote(to_text(written)), *value));
     }
     return static_cast<std::size_t>(*value) - 1;
+}
+
+/// What an index picks: one entry, or a range of them.
+struct Picked {
+    std::size_t first, count;
+    bool is_range;
+};
+
+/// What the index number `which` (from 1) picks of `count` entries.
+Picked picked_by(const Tree& tree, std::size_t which, const Closed& index, std::size_t count)
+{
+    const Tree& written = tree->arguments[which];
+    if (is_range(*written)) {
+        if (written->arguments.empty()) return {0, count, true};
+        const std::size_t first = offset_of(tree, which, written->arguments[0], index.range[0], count);
+        const std::size_t last = offset_of(tree, which, written->arguments[1], index.range[1], count);
+        if (last < first)
+            refuse(written, fmt::format("the range {} is empty", quote(to_text(written))),
+                   "a range goes from the first index to the last one");
+        return {first, last - first + 1, true};
+    }
+    if (index.shape.rank != Rank::scalar)
+        refuse(written, fmt::format("an index is {}", to_text(index.shape)), "an index is an integer");
+    return {offset_of(tree, which, written, integer_of(index), count), 1, false};
 }
 
 } // namespace
@@ -76,10 +97,30 @@ Value pick_entry(const Maker& maker, const Tree& tree, std::span<const Value> ar
         refuse(tree,
                fmt::format("{} is {} and takes {}, and {} given", called(array), to_text(base.shape),
                            wanted == 1 ? "one index" : "two indices", indices == 1 ? "one is" : "two are"),
-               wanted == 1 ? "its first entry is written with [1]" : "its first entry is written with [1,1]");
-    const std::size_t row = offset_of(tree, 1, *arguments[1], base.shape.rows);
-    const std::size_t column = wanted == 1 ? 0 : offset_of(tree, 2, *arguments[2], base.shape.columns);
-    return scalar(maker.entry(base, row * base.shape.columns + column));
+               wanted == 1 ? "its first entry is written with [1]"
+                           : "its first entry is written with [1,1], its first row with [1,:]");
+    const Picked rows = picked_by(tree, 1, *arguments[1], base.shape.rows);
+    const Picked columns = wanted == 1 ? Picked{0, 1, false} : picked_by(tree, 2, *arguments[2], base.shape.columns);
+    std::vector<ClosedTree> entries;
+    for (std::size_t i = rows.first; i < rows.first + rows.count; ++i)
+        for (std::size_t j = columns.first; j < columns.first + columns.count; ++j)
+            entries.push_back(maker.entry(base, i * base.shape.columns + j));
+    if (!rows.is_range && !columns.is_range) return scalar(std::move(entries[0]));
+    const bool vector = rows.is_range != columns.is_range;
+    return array_value(maker, vector ? vector_shape(entries.size()) : matrix_shape(rows.count, columns.count),
+                       std::move(entries));
+}
+
+Value close_range(const Tree& tree, std::span<const Value> ends)
+{
+    const Value result = scalar({tree, {}});
+    for (std::size_t k = 0; k < ends.size(); ++k) {
+        if (ends[k]->shape.rank != Rank::scalar)
+            refuse(tree->arguments[k], fmt::format("an index is {}", to_text(ends[k]->shape)),
+                   "an index is an integer");
+        result->range.push_back(integer_of(*ends[k]));
+    }
+    return result;
 }
 
 } // namespace lagen

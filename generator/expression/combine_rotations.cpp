@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// hat, vee, exp and cay, smooth at zero.
 #include "expression/combine.hpp"
+#include "expression/fixed_axis.hpp"
 
 #include <fmt/format.h>
 
@@ -64,6 +65,26 @@ Value rotation(const Maker& maker, const std::vector<ClosedTree>& v, const Close
     return array_value(maker, matrix_shape(3, 3), std::move(entries));
 }
 
+/// cos(s) 1 + sin(s) e^ + (1 - cos(s)) e e^T of a unit vector e, where nothing is to be kept from 0/0.
+Value rotation_about(const Maker& maker, const FixedAxis& axis)
+{
+    const ClosedTree c = maker.call(Function::cos, {axis.angle}), s = maker.call(Function::sin, {axis.angle});
+    const ClosedTree less = maker.subtract(maker.number(1), c);
+    std::vector<ClosedTree> e;
+    for (const SignedRoot& entry : axis.e) e.push_back(number_of(maker, entry));
+    const Value e_hat = hat_of(maker, e);
+    std::vector<ClosedTree> entries;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) {
+            const ClosedTree product = number_of(maker, axis.e[i] * axis.e[j]);
+            const ClosedTree across = i == j ? product : maker.multiply({less, product});
+            const ClosedTree along = i == j ? maker.multiply({maker.number(1 - axis.e[i].square), c})
+                                            : maker.multiply({e_hat->entries[i * 3 + j], s});
+            entries.push_back(maker.add({along, across}));
+        }
+    return array_value(maker, matrix_shape(3, 3), std::move(entries));
+}
+
 ClosedTree norm_squared(const Maker& maker, const std::vector<ClosedTree>& v)
 {
     std::vector<ClosedTree> terms;
@@ -103,6 +124,7 @@ Value exponential(const Maker& maker, const Tree& tree, const Value& a)
         const ClosedTree s = maker.call(Function::sin, {v[0]});
         return array_value(maker, matrix_shape(2, 2), {c, maker.negate(s), s, c});
     }
+    if (const std::optional<FixedAxis> fixed = fixed_axis_of(maker, v)) return rotation_about(maker, *fixed);
     const ClosedTree z = norm_squared(maker, v);
     return rotation(maker, v, maker.call(Function::stumpff, {maker.number(1), z}),
                     maker.call(Function::stumpff, {maker.number(2), z}));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Closing trees: names to symbols, definitions to their closed bodies, within bounds.
 #include "expression/closing.hpp"
+#include "expression/letters.hpp"
 #include "expression/name_hints.hpp"
 
 #include <fmt/format.h>
@@ -41,12 +42,12 @@ Expansion::Closing::Result Expansion::Closing::enter(const Tree& tree, const std
 {
     if (tree->kind == TreeKind::name || tree->kind == TreeKind::pi) return enter_name(tree, body);
     if (tree->arguments.empty() && tree->kind != TreeKind::apply && tree->kind != TreeKind::array) return leaf(tree);
+    if (is_range(*tree) && tree->arguments.empty()) return close_range(tree, {});
     const auto known = body->done.find(tree.get());
     if (known != body->done.end()) return known->second;
     const DerivativeEntry* derivative = derivative_of(*tree);
     if (derivative != nullptr) require_arity(*tree, *derivative);
-    if (tree->kind == TreeKind::apply && derivative == nullptr)
-        (void)function_of(*tree, *body); // its mistakes come before its arguments'
+    if (applies_function(*tree)) (void)function_of(*tree, *body); // its mistakes come before its arguments'
     const bool repeats = tree->kind == TreeKind::sum_over || tree->kind == TreeKind::product_over;
     push({.tree = tree, .body = body, .step = repeats ? Step::repetition : Step::operation}, tree->where);
     return nullptr;
@@ -62,12 +63,34 @@ Expansion::Closing::Result Expansion::Closing::enter_name(const Tree& tree, cons
     if (const Shape* shape = scope_.find_family(text)) return family(text, *shape, *body);
     const Definition* definition = scope_.find_definition(text);
     if (!definition && tree->kind == TreeKind::pi) return leaf(constant_pi(tree->where));
-    if (!definition) unknown(*tree, *body, false);
+    if (!definition) {
+        const Tree meant = as_printed(*tree, *body);
+        if (!meant) unknown(*tree, *body, false);
+        return enter(meant, body);
+    }
     if (!definition->parameters.empty())
         throw ModelError(
             fmt::format("the function {} stands without arguments", quote(text)), tree->where,
             fmt::format("its arguments stand in parentheses: {}({})", text, fmt::join(definition->parameters, ", ")));
     return expand(*definition, {}, tree->where);
+}
+
+/// What equations print for a name: ẋ is Dt(x), x₁ is x1, or x[1] where there is no x1. Null where it is none of these.
+Tree Expansion::Closing::as_printed(const TreeNode& node, const OpenBody& body) const
+{
+    const auto known = [&](const std::string& text) {
+        return find_bound(body, text) != nullptr || scope_.has_name(text) || scope_.has_definition(text);
+    };
+    const std::string plain = with_plain_digits(node.name);
+    if (plain != node.name && known(plain)) return name(plain, node.where);
+    if (const std::string entry = scope_.entry_meant(plain); plain != node.name && !entry.empty())
+        return name(entry, node.where);
+    const std::optional<std::string> position = without_dot(plain);
+    if (!position || !(known(*position) || !scope_.entry_meant(*position).empty())) return nullptr;
+    const std::string entry = known(*position) ? *position : scope_.entry_meant(*position);
+    auto rate = std::make_shared<TreeNode>(*application("Dt", {name(entry, node.where)}));
+    rate->where = node.where;
+    return rate;
 }
 
 /// One value a body, so that an entry that is used again is the same tree.
@@ -108,8 +131,7 @@ Expansion::Closing::Result Expansion::Closing::advance()
     if (top.step == Step::repetition) return advance_repetition();
     const std::size_t wanted = top.tree->arguments.size();
     if (top.arguments.size() < wanted) return enter(top.tree->arguments[top.arguments.size()], top.body);
-    const bool applies = top.tree->kind == TreeKind::apply && derivative_of(*top.tree) == nullptr;
-    if (applies && top.arguments.size() == wanted) // the expansion itself is one entry more
+    if (applies_function(*top.tree) && top.arguments.size() == wanted) // the expansion itself is one entry more
         return expand(function_of(*top.tree, *top.body), top.arguments, top.tree->where);
     return finish_operation();
 }
@@ -130,7 +152,7 @@ Expansion::Closing::Result Expansion::Closing::finish_operation()
     const Maker make = maker(*top.body, top.tree->where);
     if (top.body->definition || !top.body->bound.empty()) make.count();
     Value result = derivative_of(*top.tree) != nullptr ? differentiate(make, top.tree, top.arguments)
-                   : top.tree->kind == TreeKind::apply ? std::move(top.arguments.back())
+                   : applies_function(*top.tree)       ? std::move(top.arguments.back())
                                                        : combine(make, top.tree, std::move(top.arguments));
     // Only a shared node can be asked for again: one hold is the parent's, one this frame's.
     if (top.tree.use_count() > 2) top.body->done.emplace(top.tree.get(), result);

@@ -119,7 +119,56 @@ constexpr Range letters[] = {
     {0x1D7C4, 0x1D7CB},
 };
 
+struct DottedLetter {
+    char letter;
+    std::string_view dotted;
+};
+
+constexpr DottedLetter dotted_letters[] = {
+    {'a', "ȧ"}, {'b', "ḃ"}, {'c', "ċ"}, {'d', "ḋ"}, {'e', "ė"}, {'f', "ḟ"}, {'g', "ġ"}, {'h', "ḣ"},
+    {'m', "ṁ"}, {'n', "ṅ"}, {'o', "ȯ"}, {'p', "ṗ"}, {'r', "ṙ"}, {'s', "ṡ"}, {'t', "ṫ"}, {'w', "ẇ"},
+    {'x', "ẋ"}, {'y', "ẏ"}, {'z', "ż"}, {'A', "Ȧ"}, {'B', "Ḃ"}, {'C', "Ċ"}, {'D', "Ḋ"}, {'E', "Ė"},
+    {'F', "Ḟ"}, {'G', "Ġ"}, {'H', "Ḣ"}, {'I', "İ"}, {'M', "Ṁ"}, {'N', "Ṅ"}, {'O', "Ȯ"}, {'P', "Ṗ"},
+    {'R', "Ṙ"}, {'S', "Ṡ"}, {'T', "Ṫ"}, {'W', "Ẇ"}, {'X', "Ẋ"}, {'Y', "Ẏ"}, {'Z', "Ż"}};
+
+constexpr std::string_view combining_dot = "\u0307";
+
+std::size_t first_letter_size(std::string_view name)
+{
+    return !name.empty() && static_cast<unsigned char>(name[0]) >= 0x80 ? 2 : 1;
+}
+
 } // namespace
+
+std::string with_plain_digits(std::string_view name)
+{
+    static constexpr std::string_view zero = "₀"; // the others follow
+    std::string plain;
+    for (std::size_t k = 0; k < name.size(); ++k) {
+        const bool lowered = name.substr(k).starts_with(zero.substr(0, 2)) && k + 2 < name.size() &&
+                             name[k + 2] >= zero[2] && name[k + 2] - zero[2] <= 9;
+        plain += lowered ? static_cast<char>('0' + (name[k + 2] - zero[2])) : name[k];
+        if (lowered) k += 2;
+    }
+    return plain;
+}
+
+std::string with_dot(const std::string& name)
+{
+    for (const auto& [letter, dotted] : dotted_letters)
+        if (name[0] == letter) return std::string(dotted) + name.substr(1);
+    const std::size_t size = first_letter_size(name);
+    return name.substr(0, size) + std::string(combining_dot) + name.substr(size);
+}
+
+std::optional<std::string> without_dot(std::string_view name)
+{
+    for (const auto& [letter, dotted] : dotted_letters)
+        if (name.starts_with(dotted)) return letter + std::string(name.substr(dotted.size()));
+    const std::size_t size = first_letter_size(name);
+    if (name.size() < size || !name.substr(size).starts_with(combining_dot)) return std::nullopt;
+    return std::string(name.substr(0, size)) + std::string(name.substr(size + combining_dot.size()));
+}
 
 bool is_letter(char32_t c)
 {

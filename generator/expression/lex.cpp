@@ -18,13 +18,17 @@ bool is_ascii_digit(char c)
     return c >= '0' && c <= '9';
 }
 
+/// A name as it is declared, or as equations print it: q̇₁ as well.
+enum class Spelling { declared, printed };
+
 /// The end of the name that starts at `begin`; `begin` itself where none does.
-std::size_t end_of_name(std::string_view text, std::size_t begin)
+std::size_t end_of_name(std::string_view text, std::size_t begin, Spelling spelling)
 {
     std::size_t end = begin;
     while (end < text.size()) {
         const CodePoint c = decode_utf8(text, end);
-        const bool accepted = is_letter(c.value) || c.value == U'_' || (end > begin && is_digit(c.value));
+        const bool printed = spelling == Spelling::printed && (is_lowered_digit(c.value) || is_dot_above(c.value));
+        const bool accepted = is_letter(c.value) || c.value == U'_' || (end > begin && (is_digit(c.value) || printed));
         if (c.length == 0 || !accepted) break;
         end += c.length;
     }
@@ -56,10 +60,14 @@ constexpr std::array look_alikes{
     LookAlike{"}", "terms are grouped with '(' and ')', and vectors are written [a, b]"},
     LookAlike{"|", "an absolute value is written 'abs(x)'"},
     LookAlike{"'", "a derivative has no sign of its own: give it a name"},
+    LookAlike{"′", "a derivative has no sign of its own: give it a name"},
+    LookAlike{"\\", "commands of LaTeX are not read: names are letters, digits and '_'"},
 };
 
 const char* hint_for(std::string_view character)
 {
+    const char32_t c = decode_utf8(character, 0).value;
+    if (c >= U'\u0300' && c <= U'\u036F') return "of accents the dot of a rate alone is read: give it a name";
     for (const LookAlike& entry : look_alikes)
         if (entry.text == character) return entry.hint;
     return "an expression is made of numbers, names (letters, digits and '_'), + - * / ^, parentheses and brackets";
@@ -95,7 +103,7 @@ Token Lexer::next()
     if (position_ >= excerpt_.text.size()) return {TokenKind::end, position_, position_, {}};
     if (is_ascii_digit(at(position_)) || (at(position_) == '.' && is_ascii_digit(at(position_ + 1))))
         return lex_number();
-    const std::size_t end = end_of_name(excerpt_.text, position_);
+    const std::size_t end = end_of_name(excerpt_.text, position_, Spelling::printed);
     if (end > position_) {
         const Token token{TokenKind::name, position_, end, {}};
         position_ = end;
@@ -112,7 +120,8 @@ Token Lexer::lex_number()
     long decimals = 0;
     std::size_t end = begin;
     for (; is_ascii_digit(at(end)); ++end) digits += at(end);
-    if (at(end) == '.')
+    const bool range = at(end) == '.' && at(end + 1) == '.'; // 1..n
+    if (at(end) == '.' && !range)
         for (++end; is_ascii_digit(at(end)); ++end, ++decimals) digits += at(end);
     if (digits.size() > limits_.digits)
         fail(fmt::format("a number has {} digits, and at most {} are accepted", digits.size(), limits_.digits), begin,
@@ -134,7 +143,7 @@ Token Lexer::lex_number()
                  begin, end, "");
         if (negative) exponent = -exponent;
     }
-    if (at(end) == '.')
+    if (at(end) == '.' && !range)
         fail(fmt::format("malformed number {}", quote(std::string_view(excerpt_.text).substr(begin, end + 1 - begin))),
              begin, end + 1, "a number has one decimal point");
 
@@ -160,6 +169,7 @@ Token Lexer::lex_operator()
         Operator{">=", TokenKind::greater_equal},
         Operator{"==", TokenKind::equal},
         Operator{"!=", TokenKind::not_equal},
+        Operator{"..", TokenKind::range},
         Operator{"<", TokenKind::less},
         Operator{">", TokenKind::greater},
         Operator{"+", TokenKind::plus},
@@ -172,6 +182,7 @@ Token Lexer::lex_operator()
         Operator{"[", TokenKind::left_bracket},
         Operator{"]", TokenKind::right_bracket},
         Operator{",", TokenKind::comma},
+        Operator{":", TokenKind::colon},
     };
     const std::string_view rest = std::string_view(excerpt_.text).substr(position_);
     if (rest.starts_with("**")) fail("unexpected '**'", position_, position_ + 2, "a power is written '^'");
@@ -195,7 +206,7 @@ void Lexer::unexpected_character() const
 
 bool is_identifier(std::string_view text)
 {
-    return !text.empty() && end_of_name(text, 0) == text.size();
+    return !text.empty() && end_of_name(text, 0, Spelling::declared) == text.size();
 }
 
 } // namespace lagen

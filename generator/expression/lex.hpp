@@ -19,6 +19,8 @@ enum class TokenKind {
     left_bracket,
     right_bracket,
     comma,
+    colon,
+    range, ///< ..
     less,
     less_equal,
     greater,

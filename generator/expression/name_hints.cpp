@@ -71,6 +71,8 @@ std::string listing(const char* heading, const std::vector<std::string>& known)
 
 std::string hint_for_symbol(const std::string& name, const std::vector<std::string>& known)
 {
+    if (name.find("\u0308") != std::string::npos)
+        return "two dots are an acceleration, which follows from the equations";
     const std::string nearest = nearest_name(name, known);
     if (!nearest.empty()) return fmt::format("did you mean '{}'?", nearest);
     for (const Foreign& entry : foreign_symbols)

@@ -65,7 +65,9 @@ class Parser {
     Operand parse_repetition(const Token& word, std::vector<Operand> arguments);
     Operand parse_array();
     Operand parse_index(Operand base);
-    std::vector<Operand> parse_entries(const Token& open, const char* what);
+    enum class Entries { of_array, indices };
+    std::vector<Operand> parse_entries(const Token& open, Entries entries);
+    Operand parse_range();
     Operand parse_sum(Operand left);
     Operand parse_product(Operand left);
     Operand parse_power(Operand base);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Tree to text with the fewest parentheses. The walk keeps its own stack, and stops at a length: a shared tree of 40
 /// doublings has 2^40 characters.
+#include "expression/closed.hpp"
 #include "expression/parse.hpp"
 #include "expression/tree.hpp"
 
@@ -224,6 +225,10 @@ void Printer::open(const TreeNode& node)
     case TreeKind::compare: pair(node, spaced(node.comparison), Tightness::sum, Tightness::sum); break;
     case TreeKind::call:
     case TreeKind::apply:
+        if (is_range(node)) {
+            node.arguments.empty() ? append(":") : list(node, "..", Tightness::sum);
+            break;
+        }
         append(node.kind == TreeKind::call ? entry_of(node.function).name : node.name);
         append("(");
         pending_.push_back({nullptr, Tightness::atom, ")"});

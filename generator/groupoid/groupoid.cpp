@@ -163,6 +163,24 @@ std::vector<NodeId> matrix_product(Graph& graph, const std::vector<NodeId>& a, c
     return out;
 }
 
+std::vector<std::pair<NodeId, NodeId>> constant_entries(Graph& graph, const GroupoidParts& parts,
+                                                        const std::vector<NodeId>& W)
+{
+    const std::size_t n = parts.size;
+    std::vector<bool> reached(n * n, false); // by products of any length: the closure of the entries that occur
+    for (const std::vector<NodeId>& E : parts.generators)
+        for (std::size_t k = 0; k < n * n; ++k)
+            if (!graph.is_zero(E[k])) reached[k] = true;
+    for (std::size_t k = 0; k < n; ++k)
+        for (std::size_t i = 0; i < n; ++i)
+            for (std::size_t j = 0; j < n && reached[i * n + k]; ++j)
+                if (reached[k * n + j]) reached[i * n + j] = true;
+    std::vector<std::pair<NodeId, NodeId>> constant;
+    for (std::size_t k = 0; k < W.size(); ++k)
+        if (!reached[k]) constant.emplace_back(W[k], graph.constant(k % (n + 1) == 0 ? 1 : 0));
+    return constant;
+}
+
 std::vector<NodeId> matrix_one(Graph& graph, std::size_t n)
 {
     std::vector<NodeId> out(n * n, graph.constant(0));

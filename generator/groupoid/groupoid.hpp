@@ -57,6 +57,11 @@ struct Groupoid : GroupoidParts {
 [[nodiscard]] Arrow identity(Graph& graph, const Groupoid& groupoid, const std::vector<NodeId>& x);
 [[nodiscard]] Arrow inverse(Graph& graph, const Groupoid& groupoid, const Arrow& g);
 
+/// The entries of W that are 0 or 1 on the whole connected group, as `substitute` takes them: W - 1 is a sum of
+/// products of the E_c, and no product has this entry.
+[[nodiscard]] std::vector<std::pair<NodeId, NodeId>> constant_entries(Graph& graph, const GroupoidParts& parts,
+                                                                      const std::vector<NodeId>& W);
+
 /// Functions of the coordinates of an arrow, at the arrow g.
 [[nodiscard]] std::vector<NodeId> at(Graph& graph, const Groupoid& groupoid, std::span<const NodeId> functions,
                                      const Arrow& g);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "kernels/form_kernels.hpp"
 
+#include "activity.hpp"
 #include "graph/calculus/differentiate.hpp"
+#include "graph/calculus/limits.hpp"
 #include "graph/unknowns/tangent_size.hpp"
 #include "kernels/algebra_action.hpp"
 #include "kernels/describe_module.hpp"
@@ -110,6 +112,7 @@ class ModuleBuilder {
     [[nodiscard]] Kernel simplified(Kernel kernel) { return simplified(std::move(kernel), point_inputs(module_)); }
     [[nodiscard]] Kernel simplified(Kernel kernel, const std::vector<KernelInput>& inputs)
     {
+        const Activity activity("simplifying the kernel " + kernel.name);
         kernel.inputs.insert(kernel.inputs.begin(), inputs.begin(), inputs.end());
         std::vector<NodeId> none;
         std::vector<NodeId>& pivots = kernel.checks ? kernel.checks->pivots : none;
@@ -310,7 +313,7 @@ class ModuleBuilder {
         seeds = seeds_through(*graph_, form_.implicit, std::move(seeds));
         const bool eliminated = is_eliminated();
         const std::vector<NodeId> tangent =
-            directional(*graph_, eliminated ? nodes_of(right_hand_side()) : form_.derivative, seeds);
+            directional_with_limits(*graph_, eliminated ? nodes_of(right_hand_side()) : form_.derivative, seeds);
         Kernel kernel = table_kernel(form_, "variational", column("dv", tangent));
         kernel.inputs = {std::move(along)};
         if (eliminated) kernel.checks->pivots = right_hand_side().checks->pivots;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "linear/linear_system.hpp"
 
-#include <algorithm>
-
 namespace lagen::linear {
 
 namespace {
@@ -10,6 +8,7 @@ namespace {
 using Complex = Eigen::MatrixXcd;
 
 constexpr double rank_tolerance = 1e-9;
+constexpr double least_threshold = 1e-11; ///< of a pivot that is 0, relative to the largest
 
 /// Whether the rank of M is the smaller of its dimensions.
 bool has_full_rank(const Complex& M)
@@ -48,16 +47,35 @@ Eigen::VectorXcd normalised(Eigen::VectorXcd v)
     return v;
 }
 
-std::vector<Eigen::VectorXcd> eigenvectors(const LinearSystem& system, Eigenvalue lambda)
+/// M, its rows and columns divided by their largest entries, so that what is small is so beside its own equation.
+Eigen::VectorXd equilibrate(Complex& M)
 {
-    Eigen::FullPivLU<Complex> lu(shifted(system, lambda));
-    for (double threshold = rank_tolerance; threshold < 1; threshold *= 10) {
+    Eigen::VectorXd columns = Eigen::VectorXd::Ones(M.cols());
+    for (int sweep = 0; sweep < 3; ++sweep) {
+        for (Eigen::Index i = 0; i < M.rows(); ++i)
+            if (const double size = M.row(i).cwiseAbs().maxCoeff(); size > 0) M.row(i) /= size;
+        for (Eigen::Index j = 0; j < M.cols(); ++j)
+            if (const double size = M.col(j).cwiseAbs().maxCoeff(); size > 0) M.col(j) /= size, columns[j] /= size;
+    }
+    return columns;
+}
+
+/// One at least and no more than the eigenvalue has multiplicity.
+std::vector<Eigen::VectorXcd> eigenvectors(const LinearSystem& system, const MultipleEigenvalue& each)
+{
+    Complex M = shifted(system, each.value);
+    for (Eigen::Index k = 0; k < M.rows(); ++k) // a diagonal entry that is the eigenvalue but for its last digit
+        if (std::abs(M(k, k)) <= 4e-16 * std::abs(each.value)) M(k, k) = 0;
+    const Eigen::VectorXd columns = equilibrate(M);
+    Eigen::FullPivLU<Complex> lu(M);
+    for (double threshold = least_threshold; threshold < 1; threshold *= 10) {
         lu.setThreshold(threshold);
         if (lu.dimensionOfKernel() > 0) break;
     }
     const Complex kernel = lu.kernel();
     std::vector<Eigen::VectorXcd> out;
-    for (Eigen::Index k = 0; k < kernel.cols(); ++k) out.push_back(normalised(kernel.col(k)));
+    for (Eigen::Index k = 0; k < kernel.cols() && out.size() < each.multiplicity; ++k)
+        out.push_back(normalised(columns.cast<Eigenvalue>().cwiseProduct(kernel.col(k))));
     return out;
 }
 
@@ -98,20 +116,12 @@ bool LinearSystem::is_seen(Eigenvalue lambda, const Matrix& Q) const
     return has_full_rank(M);
 }
 
-std::vector<Mode> modes_of(const LinearSystem& system, const std::vector<Eigenvalue>& eigenvalues)
+std::vector<Mode> modes_of(const LinearSystem& system, const std::vector<MultipleEigenvalue>& eigenvalues)
 {
-    double largest = 0;
-    for (const Eigenvalue& lambda : eigenvalues) largest = std::max(largest, std::abs(lambda));
     std::vector<Mode> modes;
-    for (const Eigenvalue& lambda : eigenvalues) {
-        auto mode = std::ranges::find_if(
-            modes, [&](const Mode& each) { return std::abs(each.eigenvalue - lambda) <= rank_tolerance * largest; });
-        if (mode == modes.end()) {
-            modes.push_back({lambda, 0, eigenvectors(system, lambda), system.is_reached(lambda)});
-            mode = modes.end() - 1;
-        }
-        ++mode->multiplicity;
-    }
+    for (const MultipleEigenvalue& each : eigenvalues)
+        modes.push_back(
+            {each.value, each.multiplicity, each.spread, eigenvectors(system, each), system.is_reached(each.value)});
     return modes;
 }
 

@@ -32,9 +32,17 @@ struct LinearSystem {
 /// `slopes`: of functions whose zero set the leaf is, by rows, shape (any, n).
 [[nodiscard]] LinearSystem linear_system(Matrix A, Matrix B, const Matrix& slopes);
 
+/// An eigenvalue, as the mean of `multiplicity` ones that are equal but for rounding, no farther from it than `spread`.
+struct MultipleEigenvalue {
+    Eigenvalue value;
+    std::size_t multiplicity = 1;
+    double spread = 0;
+};
+
 struct Mode {
     Eigenvalue eigenvalue;
-    std::size_t multiplicity = 0;               ///< among the eigenvalues
+    std::size_t multiplicity = 0;
+    double spread = 0;
     std::vector<Eigen::VectorXcd> eigenvectors; ///< independent ones; the largest entry of each is 1
     bool reached = true;                        ///< by the inputs, on the leaf
 
@@ -42,8 +50,8 @@ struct Mode {
     [[nodiscard]] double damping() const { return -eigenvalue.real() / frequency(); } ///< not of 0
 };
 
-/// The modes of A by all its eigenvalues, by real, then by imaginary parts. Eigenvalues that differ by less than 1e-9
-/// of the largest are one.
-[[nodiscard]] std::vector<Mode> modes_of(const LinearSystem& system, const std::vector<Eigenvalue>& eigenvalues);
+/// The modes of A by all its eigenvalues, in their order.
+[[nodiscard]] std::vector<Mode> modes_of(const LinearSystem& system,
+                                         const std::vector<MultipleEigenvalue>& eigenvalues);
 
 } // namespace lagen::linear

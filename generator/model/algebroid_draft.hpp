@@ -110,8 +110,8 @@ void read_representation(const ModelReader& reader, AlgebroidBlock& block, const
 [[nodiscard]] std::vector<Symbol> coordinates_at(const Model& model, const std::vector<std::size_t>& places);
 /// The base coordinates of a block.
 [[nodiscard]] std::vector<Symbol> coordinates_of(const Model& model, const AlgebroidBlock& block);
-/// "v_x" for each coordinate; for x[1,2], whose family need not be whole, "v_x_1_2".
-[[nodiscard]] std::vector<Symbol> kept_velocities(const std::vector<Symbol>& coordinates);
+/// "v_x" for each of these coordinates of the model; for x[1,2], whose family need not be whole, "v_x_1_2".
+[[nodiscard]] std::vector<Symbol> kept_velocities(const std::vector<Symbol>& coordinates, const Model& model);
 /// "v_x" for each coordinate.
 [[nodiscard]] std::vector<Symbol> velocities_of(const std::vector<Symbol>& coordinates);
 /// The inner fibre coordinates of a frame, w_b = y^a A_a^b.

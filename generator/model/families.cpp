@@ -154,8 +154,9 @@ std::vector<RunningKey> require_keys(const std::vector<Symbol>& symbols, const E
 std::string hint_for_key(const std::vector<Symbol>& symbols, const std::string& key, const char* noun)
 {
     const std::string family = family_name(key);
-    const std::optional<ResolvedKey> known = family == key ? std::nullopt : resolve_key(symbols, family);
-    if (!known) return hint_for(key, declared_names(symbols), noun);
+    const std::optional<ResolvedKey> known = resolve_key(symbols, family);
+    if (!known || (family == key && known->shape.rank == Rank::scalar))
+        return hint_for(key, declared_names(symbols), noun);
     const Shape& shape = known->shape;
     if (shape.rank == Rank::scalar) return fmt::format("'{}' has no entries", family);
     return fmt::format("the entries of '{}' are {} to {}", family, entry_name(family, shape, 0),

@@ -218,6 +218,7 @@ struct Scene {
     SourceRange form_where;
     std::string method; ///< empty: the default for the form
     SourceRange method_where;
+    std::string stepped_by; ///< the method that makes its motion discrete, where the scene alone is not
     Tree step, tolerance, relative, absolute; ///< null where absent
     Tree time_scale; ///< of the steps of a splitting, over everything observable; null where absent
     SourceRange time_scale_where;

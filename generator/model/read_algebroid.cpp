@@ -69,7 +69,7 @@ std::optional<std::vector<Symbol>> default_fibre(const ModelReader& reader)
     case AlgebroidKind::product: return block.fibre;
     case AlgebroidKind::level_set:
         if (reader.draft->level_set.kept.empty()) return std::nullopt;
-        return kept_velocities(coordinates_at(reader.model, reader.draft->level_set.kept));
+        return kept_velocities(coordinates_at(reader.model, reader.draft->level_set.kept), reader.model);
     default: return std::nullopt;
     }
 }

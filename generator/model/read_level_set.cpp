@@ -4,6 +4,7 @@
 #include "model/algebroid_draft.hpp"
 
 #include "model/families.hpp"
+#include "model/plain_names.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -11,15 +12,6 @@
 namespace lagen {
 
 namespace {
-
-/// "v_x"; "v_R_1_2" of R[1,2].
-std::string kept_velocity(const std::string& coordinate)
-{
-    std::string text = "v_";
-    for (const char c : coordinate)
-        if (c != ']') text += c == '[' || c == ',' ? '_' : c;
-    return text;
-}
 
 /// The names that the file gives to the fibre; empty where it gives none.
 std::vector<Symbol> names_of_fibre(const ModelReader& reader, const AlgebroidDraft& draft)
@@ -30,9 +22,10 @@ std::vector<Symbol> names_of_fibre(const ModelReader& reader, const AlgebroidDra
 }
 
 /// The coordinates whose velocities these are; empty where all names are others.
-std::vector<std::size_t> kept_by(const std::vector<Symbol>& names, const std::vector<Symbol>& coordinates)
+std::vector<std::size_t> kept_by(const std::vector<Symbol>& names, const Model& model)
 {
-    const std::vector<Symbol> velocities = kept_velocities(coordinates);
+    const std::vector<Symbol>& coordinates = model.base.coordinates;
+    const std::vector<Symbol> velocities = kept_velocities(coordinates, model);
     std::vector<std::size_t> kept;
     const Symbol* other = nullptr;
     for (const Symbol& name : names) {
@@ -54,25 +47,25 @@ std::vector<std::size_t> kept_by(const std::vector<Symbol>& names, const std::ve
 
 void make_level_set(ModelReader& reader, AlgebroidDraft& draft)
 {
-    const std::vector<Symbol>& coordinates = reader.model.base.coordinates;
     const std::vector<Symbol> names = names_of_fibre(reader, draft);
     LevelSetRequest request;
     request.where = names.empty() ? draft.where : names.front().where;
-    request.kept = kept_by(names, coordinates);
+    request.kept = kept_by(names, reader.model);
     if (!names.empty()) request.sections = names.size();
     draft.level_set = frame_of_level_set(reader, request);
     reader.own_constraints = draft.level_set.constraints;
     if (names.empty() && !draft.outermost)
-        draft.fibre = kept_velocities(coordinates_at(reader.model, draft.level_set.kept));
+        draft.fibre = kept_velocities(coordinates_at(reader.model, draft.level_set.kept), reader.model);
 }
 
 } // namespace
 
-std::vector<Symbol> kept_velocities(const std::vector<Symbol>& coordinates)
+std::vector<Symbol> kept_velocities(const std::vector<Symbol>& coordinates, const Model& model)
 {
+    const std::vector<std::string> words = plain_names(names_of(coordinates), names_of(model.base.coordinates));
     std::vector<Symbol> out;
-    for (const Symbol& symbol : coordinates)
-        out.push_back(Symbol{kept_velocity(symbol.name), symbol.where, {}, {}, {}});
+    for (std::size_t k = 0; k < words.size(); ++k)
+        out.push_back(Symbol{"v_" + words[k], coordinates[k].where, {}, {}, {}});
     return out;
 }
 

@@ -2,6 +2,7 @@
 /// Parameter values, settings from the command line, and the base's constraints, Casimirs and domain.
 #include "model/model_reader.hpp"
 
+#include "expression/find_name.hpp"
 #include "expression/parse.hpp"
 #include "model/dependency_order.hpp"
 #include "model/families.hpp"
@@ -96,6 +97,21 @@ void require_coordinate(const ModelReader& reader, const Tree& closed, const Exc
                      text.range(0, text.text.size()), "a constraint is an expression of base coordinates that is zero");
 }
 
+/// A constraint that moves with t leaves the base: its rate is a constraint on velocities, with a drift.
+void refuse_moving(const ModelReader& reader, const std::vector<Tree>& closed, const Excerpt& text)
+{
+    constexpr std::size_t longest = 60; ///< characters of the constraint in the hint
+    const TreeNode* time =
+        find_name(closed, [&](const std::string& name) { return name == "t" && reader.names.find(name) == nullptr; });
+    if (time == nullptr) return;
+    throw ModelError("a constraint may not depend on the time ('t')",
+                     time->where.file ? time->where : text.range(0, text.text.size()),
+                     fmt::format("constraints of which one moves with t are constraints on velocities, with a drift: "
+                                 "kind = \"nonholonomic\" with constraints = [\"Dt({})\"], each of them in Dt, and "
+                                 "[algebroid.of] kind = \"tangent\"",
+                                 text.text.size() <= longest ? text.text : ".."));
+}
+
 bool is_strict(Comparison comparison)
 {
     return comparison == Comparison::less || comparison == Comparison::greater || comparison == Comparison::not_equal;
@@ -162,7 +178,10 @@ void read_base(ModelReader& reader, const TomlEntry* block)
     const auto point = {Role::parameter, Role::base};
     for (const Excerpt& text : base_list(block, "constraints")) {
         refuse_equation(text, "the constraint");
-        for (Tree& entry : reader.close_array(parse_expression(text), point, "a constraint").entries) {
+        const auto moving = {Role::parameter, Role::base, Role::time};
+        ArrayValue closed = reader.close_array(parse_expression(text), moving, "a constraint");
+        refuse_moving(reader, closed.entries, text);
+        for (Tree& entry : closed.entries) {
             require_coordinate(reader, entry, text);
             base.constraints.push_back(std::move(entry));
             base.constraint_texts.push_back(text.range(0, text.text.size()));

@@ -118,9 +118,9 @@ void require_start_of_motion(const Scene& scene, const std::string& form)
 void require_no_events(const Scene& scene)
 {
     if (scene.events.empty()) return;
-    throw ModelError(fmt::format("scene '{}' is discrete and has the event '{}', but a discrete motion has no values "
-                                 "between its steps in which it could be found",
-                                 scene.name, scene.events.front().name),
+    throw ModelError(fmt::format("{} and has the event '{}', but a discrete motion has no values between its steps in "
+                                 "which it could be found",
+                                 discreteness(scene), scene.events.front().name),
                      scene.events.front().where, "observe its function, and look for the change of sign in the rows");
 }
 
@@ -138,9 +138,9 @@ void require_inputs_in(const Model& model, const Scene& scene, const std::string
     if (scene.inputs.empty() && !scene.input_table) return;
     const SourceRange& where = scene.input_table ? scene.input_table->where : scene.inputs.front().where;
     if (form_named(form).steps)
-        throw ModelError(
-            fmt::format("scene '{}' is discrete and gives inputs, which act in continuous time", scene.name), where,
-            "give the scene another form");
+        throw ModelError(fmt::format("{} and gives inputs, which act in continuous time", discreteness(scene)), where,
+                         scene.stepped_by.empty() ? "give the scene another form"
+                                                  : "take another method: `lagen methods` lists them");
     if (!is_form(form, FormKind::pontryagin)) return;
     if (scene.input_table)
         throw ModelError(fmt::format("scene '{}' gives a table of inputs, and in the form '{}' they are functions of t",
@@ -244,6 +244,13 @@ void require_form(const Model& model, const std::string& form, const std::string
 std::string form_of(const Model& model, const Scene& scene)
 {
     return scene.form.empty() ? default_form(model) : scene.form;
+}
+
+std::string discreteness(const Scene& scene)
+{
+    return scene.stepped_by.empty()
+               ? fmt::format("scene '{}' is discrete", scene.name)
+               : fmt::format("scene '{}' is stepped by the method '{}'", scene.name, scene.stepped_by);
 }
 
 std::vector<std::string> state_names(const Model& model, const std::string& form)

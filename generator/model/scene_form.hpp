@@ -27,6 +27,9 @@ void require_form(const Model& model, const std::string& form, const std::string
 /// The form of a scene; where it names none the model's default.
 [[nodiscard]] std::string form_of(const Model& model, const Scene& scene);
 
+/// "scene 'a' is discrete", or "scene 'a' is stepped by the method 'variational4'": why it has no curve.
+[[nodiscard]] std::string discreteness(const Scene& scene);
+
 /// The columns of a state: base coordinates, then fibre coordinates (lagrange), momenta (hamilton), momenta and
 /// controls (pontryagin), or entries of the group element and momenta (discrete).
 [[nodiscard]] std::vector<std::string> state_names(const Model& model, const std::string& form);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "proof/ball_matrix.hpp"
 
-#include <acb_mat.h>
 #include <arb_mat.h>
 
 #include <algorithm>
@@ -96,45 +95,6 @@ bool is_certainly_definite(const BallMatrix& A, slong precision)
 {
     ArbMatrix a(A), factor(A.rows, A.rows);
     return A.rows == 0 || arb_mat_cho(factor.get(), a.get(), precision) != 0;
-}
-
-std::vector<Eigenvalue> eigenvalues(const BallMatrix& A, slong precision)
-{
-    const auto n = static_cast<slong>(A.rows);
-    if (n == 0) return {};
-    ArbMatrix real(A);
-    acb_mat_t matrix, middle, right;
-    acb_mat_init(matrix, n, n);
-    acb_mat_init(middle, n, n);
-    acb_mat_init(right, n, n);
-    acb_mat_set_arb_mat(matrix, real.get());
-    acb_mat_get_mid(middle, matrix);
-    acb_ptr near = _acb_vec_init(n), certain = _acb_vec_init(n);
-    acb_mat_approx_eig_qr(near, nullptr, right, middle, nullptr, 0, precision);
-    const bool enclosed = acb_mat_eig_multiple(certain, matrix, near, right, precision) != 0;
-    std::vector<Eigenvalue> out;
-    for (slong k = 0; k < n; ++k) {
-        acb_srcptr value = enclosed ? certain + k : near + k;
-        Eigenvalue each{arf_get_d(arb_midref(acb_realref(value)), ARF_RND_NEAR),
-                        arf_get_d(arb_midref(acb_imagref(value)), ARF_RND_NEAR), enclosed};
-        arf_t bound;
-        arf_init(bound);
-        arb_get_lbound_arf(bound, acb_realref(value), 53);
-        each.least = arf_get_d(bound, ARF_RND_FLOOR);
-        arb_get_ubound_arf(bound, acb_realref(value), 53);
-        each.most = arf_get_d(bound, ARF_RND_CEIL);
-        arf_clear(bound);
-        out.push_back(each);
-    }
-    _acb_vec_clear(near, n);
-    _acb_vec_clear(certain, n);
-    acb_mat_clear(right);
-    acb_mat_clear(middle);
-    acb_mat_clear(matrix);
-    std::ranges::sort(out, [](const Eigenvalue& a, const Eigenvalue& b) {
-        return a.real != b.real ? a.real < b.real : a.imaginary < b.imaginary;
-    });
-    return out;
 }
 
 } // namespace lagen::proof

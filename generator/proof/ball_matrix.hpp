@@ -32,13 +32,4 @@ struct BallMatrix {
 /// Whether every symmetric matrix within is positive definite; a matrix without rows is.
 [[nodiscard]] bool is_certainly_definite(const BallMatrix& A, slong precision);
 
-/// An eigenvalue; `certain`: the real part lies between these bounds.
-struct Eigenvalue {
-    double real = 0, imaginary = 0;
-    bool certain = false;
-    double least = 0, most = 0;
-};
-/// All of a square matrix, with multiplicity, by real parts, then imaginary ones.
-[[nodiscard]] std::vector<Eigenvalue> eigenvalues(const BallMatrix& A, slong precision);
-
 } // namespace lagen::proof

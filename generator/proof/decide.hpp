@@ -42,10 +42,11 @@ enum class ProofStatus { proved, refuted, undecided };
     return a == ProofStatus::proved ? b : a;
 }
 
-/// A point where a residual is certainly not zero; every variable that the setting names is listed.
+/// A point where a residual is certainly not zero.
 struct Witness {
-    NamedPoint point;
-    double value = 0; ///< of the residual there (rounded; its enclosure excludes 0)
+    NamedPoint point;      ///< every variable that the setting names; of a Judge those that the residual is about
+    double value = 0;      ///< of the residual there (rounded; its enclosure excludes 0)
+    NamedPoint whole = {}; ///< of a Judge: every variable
 };
 
 struct Decision {

@@ -35,6 +35,12 @@ std::optional<std::vector<double>> damped_step(const Residual& at, std::size_t n
     return step;
 }
 
+std::vector<double> added(std::vector<double> z, const std::vector<double>& step)
+{
+    for (std::size_t k = 0; k < z.size(); ++k) z[k] += step[k];
+    return z;
+}
+
 } // namespace
 
 double Residual::length() const
@@ -45,7 +51,8 @@ double Residual::length() const
 }
 
 std::optional<LeastSquares> least_squares(std::vector<double> z,
-                                          const std::function<Residual(const std::vector<double>&)>& residual)
+                                          const std::function<Residual(const std::vector<double>&)>& residual,
+                                          const Move& move)
 {
     double damping = 1e-2;
     Residual now = residual(z);
@@ -53,14 +60,14 @@ std::optional<LeastSquares> least_squares(std::vector<double> z,
         const double length = now.length();
         if (!std::isfinite(length)) return std::nullopt;
         if (length <= rounding * now.size) break;
-        const auto change = damped_step(now, z.size(), damping * std::min(1.0, length));
+        const std::size_t columns = now.values.empty() ? z.size() : now.slopes.size() / now.values.size();
+        const auto change = damped_step(now, columns, damping * std::min(1.0, length));
         if (!change) return std::nullopt;
-        std::vector<double> next_z = z;
-        for (std::size_t k = 0; k < z.size(); ++k) next_z[k] += (*change)[k];
+        const std::vector<double> next_z = move ? move(z, *change) : added(z, *change);
         const bool finite = std::ranges::all_of(next_z, [](double each) { return std::isfinite(each); });
         Residual next = finite ? residual(next_z) : now;
         if (next.length() < length) {
-            z = std::move(next_z), now = std::move(next);
+            z = next_z, now = std::move(next);
             damping = std::max(damping / 10, 1e-14);
         } else {
             damping *= 10;

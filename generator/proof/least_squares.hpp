@@ -26,8 +26,12 @@ struct LeastSquares {
     Residual at;
 };
 
-/// Nothing where F is no finite number on the way.
+/// Where a step takes z, on a set that is no vector space; the slopes are by the step then.
+using Move = std::function<std::vector<double>(const std::vector<double>& z, const std::vector<double>& step)>;
+
+/// Nothing where F is no finite number on the way. Without `move` steps are added.
 [[nodiscard]] std::optional<LeastSquares>
-least_squares(std::vector<double> z, const std::function<Residual(const std::vector<double>&)>& residual);
+least_squares(std::vector<double> z, const std::function<Residual(const std::vector<double>&)>& residual,
+              const Move& move = {});
 
 } // namespace lagen::proof

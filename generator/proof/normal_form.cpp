@@ -22,14 +22,16 @@ NormalForm::NormalForm(const Graph& graph, const ProofSetting& setting,
         inputs_[input] = ring_.add_generator(
             {graph_.input_name(input), {}, 0, {}, -1, false, std::nullopt, name(graph_.input_name(input))});
     };
-    for (const NodeId input : setting.parameters) declare(input);
-    for (const NodeId input : setting.variables) declare(input);
     operands_.insert(operands_.end(), operands.begin(), operands.end());
     std::vector<NodeId> all{root};
     for (const NonnegativeOperand& operand : operands_) all.push_back(operand.node);
     all.insert(all.end(), setting.constraints.begin(), setting.constraints.end());
     all.insert(all.end(), setting.domain.begin(), setting.domain.end());
-    for (const NodeId node : reachable(graph, all))
+    const std::vector<NodeId> occurring = reachable(graph, all);
+    for (const std::vector<NodeId>* inputs : {&setting.parameters, &setting.variables})
+        for (const NodeId input : *inputs)
+            if (std::ranges::binary_search(occurring, input)) declare(input);
+    for (const NodeId node : occurring)
         if (graph.op(node) == Op::input) declare(node);
     // A model may call a quantity pi: then the number is written otherwise, since texts tell generators apart.
     const auto is_called_pi = [&](const auto& entry) { return graph_.input_name(entry.first) == "pi"; };
@@ -221,7 +223,30 @@ Fraction NormalForm::readable(const Fraction& a)
         result.num = std::move(sum);
         result = ring_.normalised(std::move(result));
     }
-    return result;
+    return without_root_powers(std::move(result));
+}
+
+/// Powers of roots as divisors: 1/sqrt(k)^2 is 1/k, which may cancel.
+Fraction NormalForm::without_root_powers(Fraction a)
+{
+    const auto is_input = [this](GeneratorId id) {
+        return std::ranges::any_of(inputs_, [id](const auto& entry) { return entry.second == id; });
+    };
+    const auto divisors = a.factors;
+    for (const auto& [index, power] : divisors) {
+        const Polynomial divisor = ring_.factor(index);
+        if (divisor.size() != 1 || divisor[0].monomial.size() != 1 || divisor[0].monomial.exponent(0) != 1) continue;
+        const GeneratorId id = divisor[0].monomial.generator(0);
+        const unsigned degree = ring_.generator(id).power;
+        if (degree == 0 || power < degree || ring_.generator(id).partner >= 0 || is_input(id)) continue;
+        const Polynomial radicand = ring_.generator(id).relation;
+        const auto place = std::ranges::find(a.factors, index, &std::pair<std::size_t, unsigned>::first);
+        if (place == a.factors.end() || place->second < power) continue; // something has cancelled it
+        place->second = power % degree;
+        if (place->second == 0) a.factors.erase(place);
+        a = ring_.divide(a, ring_.power(ring_.of(radicand), static_cast<int>(power / degree)));
+    }
+    return a;
 }
 
 Fraction NormalForm::of(NodeId node)

@@ -58,6 +58,7 @@ class NormalForm {
     void add_domain();
     void add_definedness();
     void solve_constraint(const SolvedConstraint& solved);
+    [[nodiscard]] Fraction without_root_powers(Fraction a);
     [[nodiscard]] bool divides_as_written(NodeId root) const;
     [[nodiscard]] Fraction once(NodeId node);
     [[nodiscard]] Fraction apply(NodeId node);

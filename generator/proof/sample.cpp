@@ -242,9 +242,14 @@ const SamplePoint* Sampler::regular(std::size_t k)
 
 ExactInputs Sampler::exact_values(const SamplePoint& point, const std::vector<NodeId>& more) const
 {
-    ExactInputs values = point.exact;
-    for (const NodeId input : more)
-        if (places_.count(input) == 0) values[input] = draw(point.number, input, false);
+    ExactInputs values;
+    if (!constraints_.empty()) values = point.exact; // coordinates that are solved for need others
+    for (const NodeId input : more) {
+        if (places_.count(input) == 0)
+            values[input] = draw(point.number, input, false);
+        else if (const auto at = point.exact.find(input); at != point.exact.end())
+            values.insert(*at);
+    }
     return values;
 }
 
@@ -252,10 +257,10 @@ NamedPoint Sampler::values(const SamplePoint& point, const std::vector<NodeId>& 
 {
     std::vector<NodeId> order = setting_.variables;
     order.insert(order.end(), setting_.parameters.begin(), setting_.parameters.end());
-    const ExactInputs exact = exact_values(point, more);
-    const BallInputs balls = enclosures(point, more, budget_.precision);
     for (const NodeId input : more)
         if (places_.count(input) == 0) order.push_back(input);
+    const ExactInputs exact = exact_values(point, order);
+    const BallInputs balls = enclosures(point, order, budget_.precision);
     NamedPoint result;
     for (const NodeId input : order) {
         const auto at = exact.find(input);

@@ -26,10 +26,10 @@ class Sampler {
 
     /// The k-th regular point, or nullptr where the tries do not find as many. Cached: the same at each call.
     [[nodiscard]] const SamplePoint* regular(std::size_t k);
-    /// Enclosures of the inputs, `more` (inputs outside the setting) included.
+    /// Enclosures of these inputs, which may stand outside the setting; with constraints of all inputs.
     [[nodiscard]] BallInputs enclosures(const SamplePoint& point, const std::vector<NodeId>& more,
                                         slong precision) const;
-    /// Exact values of the inputs; those that are irrational are missing.
+    /// Exact values likewise; those that are irrational are missing.
     [[nodiscard]] ExactInputs exact_values(const SamplePoint& point, const std::vector<NodeId>& more) const;
     /// Names and values, variables first, then parameters, then `more`.
     [[nodiscard]] NamedPoint values(const SamplePoint& point, const std::vector<NodeId>& more) const;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Newton's method for h(x) = 0 with steps of least length: dx = -J^T lambda, (J J^T) lambda = h.
+/// Newton's method for h(x) = 0, c(x) = c(x_0) with steps of least length: dx = -J^T lambda, (J J^T) lambda = h.
 #include "scene/project_start.hpp"
 
+#include "algebra/orthonormal_span.hpp"
 #include "expression/linear_algebra.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/evaluate.hpp"
@@ -15,6 +16,8 @@
 namespace lagen {
 
 namespace {
+
+constexpr long double dependent_slopes = 1e-9L;
 
 /// One Newton step; false where the gradients are dependent.
 bool step(const std::vector<std::string>& coordinates, Values& values, const std::vector<ConstraintValue>& h)
@@ -49,19 +52,31 @@ ConstraintFunctions::ConstraintFunctions(const Model& model)
         coordinates_.push_back(coordinate.name);
         x.push_back(graph_.input(coordinate.name));
     }
-    for (const Tree& constraint : model.base.constraints) {
-        std::vector<NodeId>& nodes = nodes_.emplace_back(1, lower(constraint));
+    const auto append = [&](Functions& functions, const Tree& tree) {
+        std::vector<NodeId>& nodes = functions.emplace_back(1, lower(tree));
         const std::vector<NodeId> slopes = gradient(graph_, nodes[0], x);
         nodes.insert(nodes.end(), slopes.begin(), slopes.end());
-        if (constraint->kind == TreeKind::add)
-            for (const Tree& term : constraint->arguments) nodes.push_back(lower(term));
-    }
+        if (tree->kind == TreeKind::add)
+            for (const Tree& term : tree->arguments) nodes.push_back(lower(term));
+    };
+    for (const Tree& constraint : model.base.constraints) append(constraints_, constraint);
+    for (const NamedTree& casimir : model.base.casimirs) append(casimirs_, casimir.value);
 }
 
 std::vector<ConstraintValue> ConstraintFunctions::at(const Values& values) const
 {
+    return at(constraints_, values);
+}
+
+std::vector<ConstraintValue> ConstraintFunctions::casimirs_at(const Values& values) const
+{
+    return at(casimirs_, values);
+}
+
+std::vector<ConstraintValue> ConstraintFunctions::at(const Functions& functions, const Values& values) const
+{
     std::vector<ConstraintValue> out;
-    for (const std::vector<NodeId>& nodes : nodes_) {
+    for (const std::vector<NodeId>& nodes : functions) {
         const std::vector<long double> found = evaluate<long double>(graph_, nodes, values);
         const auto terms = found.begin() + 1 + static_cast<std::ptrdiff_t>(coordinates_.size());
         ConstraintValue h{found[0], 0, {found.begin() + 1, terms}};
@@ -86,12 +101,23 @@ bool project_start(const ConstraintFunctions& constraints, Values& values)
         }
         return true;
     };
+    const std::vector<ConstraintValue> start = constraints.casimirs_at(values);
+    const auto conditions = [&] {
+        std::vector<ConstraintValue> h = constraints.at(values), casimirs = constraints.casimirs_at(values);
+        OrthonormalSpan span(dependent_slopes);
+        for (const ConstraintValue& each : h) (void)span.add(each.gradient);
+        for (std::size_t k = 0; k < casimirs.size(); ++k) {
+            casimirs[k].value -= start[k].value;
+            if (span.add(casimirs[k].gradient)) h.push_back(std::move(casimirs[k]));
+        }
+        return h;
+    };
     for (int k = 0; k < most_steps; ++k) {
-        const std::vector<ConstraintValue> h = constraints.at(values);
+        const std::vector<ConstraintValue> h = conditions();
         if (all_hold(h, target)) return true;
         if (!step(constraints.coordinates(), values, h)) return false;
     }
-    return all_hold(constraints.at(values), acceptable);
+    return all_hold(conditions(), acceptable);
 }
 
 } // namespace lagen

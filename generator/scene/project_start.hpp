@@ -23,24 +23,29 @@ struct ConstraintValue {
     }
 };
 
-/// The constraints of a model with their gradients, on a graph of their own.
+/// The constraints and the declared Casimirs of a model with their gradients, on a graph of their own.
 class ConstraintFunctions {
   public:
     explicit ConstraintFunctions(const Model& model);
 
     /// One value a constraint. `values` binds parameters and base coordinates.
     [[nodiscard]] std::vector<ConstraintValue> at(const Values& values) const;
+    [[nodiscard]] std::vector<ConstraintValue> casimirs_at(const Values& values) const;
     /// Names of the base coordinates, in their order.
     [[nodiscard]] const std::vector<std::string>& coordinates() const { return coordinates_; }
 
   private:
+    using Functions = std::vector<std::vector<NodeId>>; ///< of each: its value, its gradient, its terms
+    [[nodiscard]] std::vector<ConstraintValue> at(const Functions& functions, const Values& values) const;
+
     Graph graph_;
     std::vector<std::string> coordinates_;
-    std::vector<std::vector<NodeId>> nodes_; ///< of each constraint: h, its gradient, its terms
+    Functions constraints_, casimirs_;
 };
 
-/// Moves the base coordinates of `values` onto the constraints by Newton steps of least Euclidean length; true where
-/// they were reached, to 1e-17 of their scale or as near as rounding lets them come.
+/// Moves the base coordinates of `values` onto the constraints by Newton steps of least Euclidean length, on the levels
+/// of the declared Casimirs that are no functions of the constraints; true where they were reached, to 1e-17 of their
+/// scale or as near as rounding lets them come.
 [[nodiscard]] bool project_start(const ConstraintFunctions& constraints, Values& values);
 
 } // namespace lagen

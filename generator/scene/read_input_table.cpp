@@ -3,6 +3,7 @@
 
 #include "model/families.hpp"
 #include "model/model_reader.hpp"
+#include "model/plain_names.hpp"
 #include "model/read_file.hpp"
 #include "model/read_values.hpp"
 #include "model/table_reader.hpp"
@@ -37,19 +38,10 @@ std::vector<Excerpt> cells_of(const Excerpt& line)
     return cells;
 }
 
-/// As columns of `lagen run` are called: u_1 for u[1].
-std::string column_name(std::string name)
-{
-    if (!name.ends_with(']')) return name;
-    name.pop_back();
-    std::ranges::replace_if(
-        name, [](char c) { return c == '[' || c == ','; }, '_');
-    return name;
-}
-
 class InputTableReader {
   public:
-    InputTableReader(const Model& model, const Scene& scene) : symbols_(input_symbols(model)), scene_(scene)
+    InputTableReader(const Model& model, const Scene& scene)
+        : symbols_(input_symbols(model)), known_(all_names(model)), scene_(scene)
     {
         const std::filesystem::path given(scene.input_table->path);
         const std::string path = (std::filesystem::path(model.file->name).parent_path() / given).string();
@@ -105,9 +97,8 @@ class InputTableReader {
 
     [[nodiscard]] std::size_t place_of(const std::string& name) const
     {
-        const auto is_called = [&](const Symbol& each) { return each.name == name || column_name(each.name) == name; };
         if (name == "t") return 0;
-        return 1 + static_cast<std::size_t>(std::ranges::find_if(symbols_, is_called) - symbols_.begin());
+        return 1 + find_plain(names_of(symbols_), name, known_).value_or(symbols_.size());
     }
 
     void read_heading(const Excerpt& line)
@@ -147,6 +138,7 @@ class InputTableReader {
     }
 
     std::vector<Symbol> symbols_;
+    std::vector<std::string> known_;
     const Scene& scene_;
     Excerpt text_;
     std::vector<std::size_t> places_; ///< of the columns: 0 of t, 1 + k of the input k

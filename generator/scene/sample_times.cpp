@@ -3,6 +3,7 @@
 #include "scene/sample_times.hpp"
 
 #include "diagnostic.hpp"
+#include "model/scene_form.hpp"
 
 #include <fmt/core.h>
 
@@ -101,11 +102,12 @@ std::size_t steps_between(const Scene& scene, const SceneValues& values, std::si
             fmt::format("scene '{}' asks for {} even rows of {} steps", scene.name, scene.sampling.count, steps),
             scene.where, "a discrete motion has points at its steps alone");
     case Sampling::Kind::event:
-    case Sampling::Kind::at:
-        throw ModelError(fmt::format("scene '{}' is discrete: its rows are at its steps", scene.name), scene.where,
-                         "`sample` = a multiple of the step takes fewer of them");
+    case Sampling::Kind::at: break;
     }
-    return 1;
+    const std::vector<Tree>& at = scene.sampling.at;
+    throw ModelError(fmt::format("{}: its rows are at its steps", discreteness(scene)),
+                     at.empty() || !at.front()->where.file ? scene.where : at.front()->where,
+                     "`sample` = a multiple of the step takes fewer of them");
 }
 
 SampleTimes step_times(const Scene& scene, const SceneValues& values, std::size_t columns)

@@ -20,7 +20,7 @@ Claims::Claims(const System& system, std::size_t points, const ProofBudget& budg
     if (system.hamiltonian) hamiltonian_hessian_ = fibre_hessian(graph_, *system.hamiltonian, system.mu);
     require_triangular_constraints();
     refuse_zero_divisors(budget);
-    judge_ = std::make_unique<Judge>(graph_, setting_, accessory_inputs(system), points_, budget);
+    judge_ = std::make_unique<Judge>(graph_, setting_, points_, budget);
     if (!judge_->decider().sample_point())
         note_ = "no point was found where everything in the model is defined and every condition of [base] holds";
 }

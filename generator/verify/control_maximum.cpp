@@ -35,17 +35,35 @@ class MaximumDecision {
         if (const std::string kink = proofs_.kink_in(parts_); !kink.empty())
             return {Kind::nonsmooth, "H is not smooth in the controls: it contains " + kink,
                     "write a cost that is smooth in the controls"};
-        if (const auto linear = affine_control())
-            return {Kind::unsolved,
-                    fmt::format("H is affine in the control {0}: dH/d{0} = 0 does not determine it (a singular or "
-                                "bang-bang control)",
-                                name_of(*linear)),
-                    fmt::format("give the cost a term in which {} is strictly convex", name_of(*linear))};
+        if (const auto linear = affine_control()) return of_affine(*linear);
         std::vector<std::size_t> angles = find_angles(graph_, control_, hamiltonian_, parts_, setting_, budget_);
         return angles.empty() ? of_stationary() : beside(std::move(angles));
     }
 
   private:
+    /// Between bounds the control switches where dH/du changes its sign; without them H has no maximum elsewhere.
+    [[nodiscard]] ControlMaximum of_affine(std::size_t k) const
+    {
+        constexpr std::size_t longest = 60; // characters of a switching function in the message
+        const std::string& name = name_of(k);
+        const std::string slope = proofs_.decider().decide(hamiltonian_.dH_du[k]).residual;
+        const std::string shown = slope.empty() || slope.size() > longest ? "" : " = " + slope;
+        const bool switches = control_.lower[k] && control_.upper[k];
+        const std::string missing =
+            switches
+                ? fmt::format("between its bounds it is bang-bang, at the upper one where dH/d{0}{1} > 0 and at the "
+                              "lower one where it is < 0, and what is missing are motions that switch there",
+                              name, shown)
+                : fmt::format("without two bounds H has a maximum only where dH/d{0}{1} is 0 (a singular control)",
+                              name, shown);
+        return {Kind::unsolved,
+                fmt::format("H is affine in the control {0}: dH/d{0} = 0 does not determine it; {1}", name, missing),
+                fmt::format("give the cost a term in which {0} is strictly convex{1}", name,
+                            switches
+                                ? fmt::format(": a small multiple of {}^2 gives motions near those that switch", name)
+                                : "")};
+    }
+
     [[nodiscard]] ControlMaximum of_stationary() { return control_.bounded() ? between_bounds() : without_bounds(); }
 
     /// The other controls stand apart from the angles, and are smooth and affine in none, since all controls are.

@@ -23,7 +23,7 @@ struct Term {
 
 class Parts {
   public:
-    Parts(Graph& graph, NodeId f, const std::vector<NodeId>& y) : graph_(graph), y_(y)
+    Parts(Graph& graph, NodeId f, const std::vector<NodeId>& y) : graph_(graph), y_(y), is_y_(y.begin(), y.end())
     {
         const NodeId roots[] = {f};
         // Degrees in y, from the operands up; 2 stands for everything that is not affine.
@@ -38,7 +38,7 @@ class Parts {
   private:
     [[nodiscard]] int degree(NodeId node) const
     {
-        if (std::find(y_.begin(), y_.end(), node) != y_.end()) return 1;
+        if (is_y_.contains(node)) return 1;
         const auto operands = graph_.operands(node);
         const auto of = [&](std::size_t k) { return degrees_.at(operands[k]); };
         int greatest = 0;
@@ -144,10 +144,14 @@ class Parts {
         std::vector<NodeId> functions;
         for (const auto& [pair, unused] : entries_)
             if (functions.empty() || functions.back() != pair.first) functions.push_back(pair.first);
-        const auto coupled = [&](std::size_t i, std::size_t j) {
-            return entries_.contains({functions[i], functions[j]});
+        const auto place = [&](NodeId f) {
+            return static_cast<std::size_t>(std::ranges::lower_bound(functions, f) - functions.begin());
         };
-        for (const std::vector<std::size_t>& members : connected_classes(functions.size(), coupled)) {
+        const std::size_t count = functions.size();
+        std::vector<bool> is_entry(count * count, false);
+        for (const auto& [pair, unused] : entries_) is_entry[place(pair.first) * count + place(pair.second)] = true;
+        const auto coupled = [&](std::size_t i, std::size_t j) { return is_entry[i * count + j]; };
+        for (const std::vector<std::size_t>& members : connected_classes(count, coupled)) {
             ConvexPart& part = parts_.emplace_back();
             for (const std::size_t i : members) {
                 part.functions.push_back(functions[i]);
@@ -201,6 +205,7 @@ class Parts {
 
     Graph& graph_;
     const std::vector<NodeId>& y_;
+    std::set<NodeId> is_y_;
     std::map<NodeId, int> degrees_;
     std::vector<ConvexPart> parts_;
     std::vector<Product> products_;

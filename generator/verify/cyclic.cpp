@@ -55,7 +55,7 @@ StructureReport cyclic_coordinates(const System& system, const ProofBudget& budg
     std::vector<Slopes> all;
     for (const Functions& each : functions_of(system))
         all.push_back({each.name, jacobian(graph, each.nodes, system.algebroid.x)});
-    Judge judge(graph, proof_setting(graph, system), accessory_inputs(system), 0, budget);
+    Judge judge(graph, proof_setting(graph, system), 0, budget);
     StructureReport report;
     for (std::size_t i = 0; i < system.n(); ++i) {
         const std::string q = graph.input_name(system.algebroid.x[i]);

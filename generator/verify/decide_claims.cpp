@@ -1,15 +1,25 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The claims of a model, one kind after another, with names for people.
+#include "activity.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "proof/partial_parts.hpp"
 #include "verify/claims.hpp"
 #include "verify/construction.hpp"
 #include "verify/control_maximum.hpp"
-#include "verify/proof_setting.hpp"
 
 #include <algorithm>
 
 namespace lagen {
+
+namespace {
+
+/// rho_a(f) of a constraint or a Casimir.
+bool is_of_function(const Residual& residual)
+{
+    return residual.name == "tangency" || residual.name == "casimir";
+}
+
+} // namespace
 
 /// Decided, with the names that its numbers stand for; the last one is a base coordinate or a function of the base.
 Check Claims::check_of(const Residual& residual)
@@ -38,8 +48,10 @@ void Claims::decide_by_construction(const ResidualList& list)
     const ZeroDecider quick(graph_, setting_, smaller(judge_->decider().budget(), quick_budget));
     bool tried = false, constructed = false, refuted = false;
     std::map<NodeId, Decision> open;
+    Activity activity("quick proofs", list.residuals.size());
     for (const Residual& residual : list.residuals) {
-        if (residual.name == "tangency" || residual.name == "casimir") continue;
+        activity.next();
+        if (is_of_function(residual)) continue;
         Decision decision;
         if (!constructed) decision = quick.decide(residual.value);
         refuted = refuted || decision.status == ProofStatus::refuted;
@@ -64,13 +76,19 @@ void Claims::decide_structure(StructureReport& structure)
     structure.note = note_;
     structure.trivial += list.trivial;
     decide_by_construction(list);
+    Activity activity("equations", list.residuals.size());
+    const auto append_check = [&](std::vector<Check>& checks, const Residual& residual) {
+        activity.next();
+        checks.push_back(check_of(residual));
+    };
     for (const Residual& residual : list.residuals)
-        if (residual.name != "tangency" && residual.name != "casimir") structure.checks.push_back(check_of(residual));
+        if (!is_of_function(residual)) append_check(structure.checks, residual);
     WhereConstant where = along_anchor();
+    auto next = std::ranges::find_if(list.residuals, is_of_function); // sorted by the functions
     const auto append = [&](const char* name, std::size_t k, NodeId f, const BaseFunctionText& text) {
         std::vector<Check> checks;
-        for (const Residual& residual : list.residuals)
-            if (residual.name == name && residual.indices.back() == k) checks.push_back(check_of(residual));
+        for (; next != list.residuals.end() && next->name == name && next->indices.back() == k; ++next)
+            append_check(checks, *next);
         std::vector<NodeId> functions{f};
         functions.insert(functions.end(), text.parts.begin(), text.parts.end());
         say_where(where, functions, checks, {name, {text.name}, {}, {}, {}});
@@ -150,7 +168,9 @@ void Claims::decide_along_motions(Report& report, const std::vector<NamedTree>& 
     const Binding names = motion->names();
     Lowering lower(graph_, names);
     const bool everywhere = motions_fill(report.mechanics.regularity);
+    Activity activity("functions", claims.size());
     for (const NamedTree& claim : claims) {
+        activity.next();
         Check check{"invariant", {claim.name}, {}, {}, {}};
         const NodeId f = lower(claim.value);
         const Rate rate = motion->rate(momentum_in(f, names).value_or(f));
@@ -163,7 +183,7 @@ void Claims::decide_along_motions(Report& report, const std::vector<NamedTree>& 
                 functions.push_back(motion->in_states(part));
             ProofSetting setting = setting_;
             setting.defined.insert(setting.defined.end(), functions.begin(), functions.end());
-            Judge judge(graph_, setting, accessory_inputs(system_), points_, judge_->decider().budget());
+            Judge judge(graph_, setting, points_, judge_->decider().budget());
             check.decision = judge.decide(*rate.value);
             if (check.decision.status == ProofStatus::proved)
                 WhereConstant::restrict(check, where.of(functions, divisors_of(rate, report.mechanics.regularity)));
@@ -208,7 +228,7 @@ void Claims::decide_legendre(StructureReport& structure)
     const NodeId residual = graph_.subtract(hamiltonian, lagrangian_->energy);
     ProofSetting setting = setting_;
     setting.defined.push_back(hamiltonian);
-    Judge judge(graph_, setting, accessory_inputs(system_), points_, judge_->decider().budget());
+    Judge judge(graph_, setting, points_, judge_->decider().budget());
     Check check{"legendre", {}, judge.decide(residual), {}, judge.reevaluate(residual)};
     if (check.decision.status == ProofStatus::refuted)
         check.hint = "H is y^a dL/dy^a - L at mu_a = dL/dy^a; leave [hamiltonian] out, and it is found from L";

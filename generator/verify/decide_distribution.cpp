@@ -5,12 +5,13 @@
 #include "verify/claims.hpp"
 #include "verify/distribution_rows.hpp"
 #include "verify/fibre_rank.hpp"
-#include "verify/proof_setting.hpp"
 #include "verify/singular_set.hpp"
+#include "verify/witness_point.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace lagen {
 
@@ -77,8 +78,8 @@ void Claims::decide_independence(StructureReport& structure)
                          ? "leave out the constraints that the others contain"
                          : "sections are independent at every point of the domain, as many as D has dimensions";
     if (check.decision.witness && !contradict)
-        std::erase_if(check.decision.witness->point,
-                      [unused = accessory_inputs(system_)](const auto& entry) { return unused.contains(entry.first); });
+        check.decision.witness->point =
+            concerned(graph_, setting_, input_names(graph_, rows), check.decision.witness->point);
     structure.checks.push_back(std::move(check));
 }
 
@@ -113,12 +114,8 @@ void Claims::add_singular_minor(Regularity& regularity)
     regularity.positive_definite = false;
     ProofSetting setting = setting_;
     setting.defined.clear();
-    const std::set<std::string> unused = accessory_inputs(system_);
     const auto list = [&](std::vector<NamedPoint> points) {
-        for (NamedPoint& point : points) {
-            std::erase_if(point, [&](const auto& entry) { return unused.contains(entry.first); });
-            regularity.singular_at.push_back(std::move(point));
-        }
+        std::ranges::move(points, std::back_inserter(regularity.singular_at));
     };
     const ProofBudget& budget = judge_->decider().budget();
     for (const SliceValue& value : {SliceValue{graph_.constant(0), Rational(0)}, quarter_turn(graph_)})

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// What [forms] claims, component by component.
 #include "verify/claims.hpp"
-#include "verify/proof_setting.hpp"
 
 #include <algorithm>
 #include <set>
@@ -72,7 +71,7 @@ Claims::Vanishing Claims::vanishing(const std::string& name, const FormClaim& cl
     for (const NodeId node : defined_parts(claim)) setting.defined.push_back(node);
     if (name == "equals")
         setting.defined.insert(setting.defined.end(), claim.equals_parts.begin(), claim.equals_parts.end());
-    Judge judge(graph_, setting, accessory_inputs(system_), points_, judge_->decider().budget());
+    Judge judge(graph_, setting, points_, judge_->decider().budget());
     std::vector<Check> checks;
     if (residual.components.empty() && !setting.defined.empty())
         if (Decision zero = judge.decide(graph_.constant(0)); zero.status != ProofStatus::proved)

@@ -2,7 +2,6 @@
 /// Whether the candidate of [hamilton_jacobi] is closed and solves Hamilton and Jacobi's equation.
 #include "mechanics/hamilton_jacobi.hpp"
 #include "verify/claims.hpp"
-#include "verify/proof_setting.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -28,7 +27,7 @@ void Claims::decide_hamilton_jacobi(StructureReport& structure, const Regularity
     for (const std::vector<NodeId>* list : {&system_.hamilton_jacobi->alpha, &system_.hamilton_jacobi->parts})
         for (const NodeId node : *list)
             if (!graph_.is_constant(node)) setting.defined.push_back(node);
-    Judge judge(graph_, setting, accessory_inputs(system_), points_, judge_->decider().budget());
+    Judge judge(graph_, setting, points_, judge_->decider().budget());
     const auto name_of = [&](std::size_t a) { return graph_.input_name(system_.algebroid.y[a]); };
     std::vector<Check> checks;
     const auto append = [&](const char* name, std::vector<std::string> indices, NodeId value, ProofStatus& status) {

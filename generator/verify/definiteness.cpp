@@ -2,7 +2,7 @@
 /// Sylvester's criterion, part by part or block by block, and the elimination of the fibre coordinates.
 #include "verify/definiteness.hpp"
 
-#include "graph/calculus/differentiate.hpp"
+#include "algebroid/section.hpp"
 #include "proof/rational_matrix.hpp"
 #include "verify/convex_parts.hpp"
 
@@ -37,14 +37,14 @@ std::optional<std::vector<NodeId>> definite_functions(Graph& graph, const FibreH
     return functions;
 }
 
-/// The one coordinate of a row that is still open; row.size() where there are none or several.
-std::size_t only_open(const Graph& graph, const std::vector<NodeId>& row, const std::vector<bool>& closed)
+/// The one entry of a row whose coordinate is still open; null where there are none or several.
+const ColumnEntry* only_open(const Column& row, const std::vector<bool>& closed)
 {
-    std::size_t only = row.size();
-    for (std::size_t a = 0; a < row.size(); ++a) {
-        if (closed[a] || graph.is_zero(row[a])) continue;
-        if (only != row.size()) return row.size();
-        only = a;
+    const ColumnEntry* only = nullptr;
+    for (const ColumnEntry& entry : row) {
+        if (closed[entry.index]) continue;
+        if (only != nullptr) return nullptr;
+        only = &entry;
     }
     return only;
 }
@@ -100,13 +100,14 @@ bool proves_definite_by_parts(Graph& graph, const FibreHessian& hessian, const Z
     const std::size_t r = hessian.y.size();
     const auto functions = definite_functions(graph, hessian, decider);
     if (!functions) return false;
-    std::vector<std::vector<NodeId>> rows; // df
-    for (const NodeId f : *functions) rows.push_back(gradient(graph, f, hessian.y));
+    BaseGradient slopes_of(graph, hessian.y);
+    std::vector<Column> rows; // df
+    for (const NodeId f : *functions) rows.push_back(slopes_of.of(f));
     std::vector<bool> closed(r, false);
     for (std::size_t count = 0; count < r;) {
         std::map<std::size_t, std::vector<NodeId>> entries;
-        for (const std::vector<NodeId>& row : rows)
-            if (const std::size_t a = only_open(graph, row, closed); a < r) entries[a].push_back(row[a]);
+        for (const Column& row : rows)
+            if (const ColumnEntry* entry = only_open(row, closed)) entries[entry->index].push_back(entry->value);
         bool progress = false;
         for (const auto& [a, slopes] : entries) {
             if (!have_positive_squares(graph, slopes, decider)) continue;

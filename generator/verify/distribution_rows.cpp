@@ -5,7 +5,6 @@
 #include "graph/calculus/differentiate.hpp"
 #include "graph/calculus/places.hpp"
 #include "graph/core/lower.hpp"
-#include "verify/proof_setting.hpp"
 #include "verify/reduced_fraction.hpp"
 #include "verify/singular_set.hpp"
 
@@ -350,7 +349,7 @@ std::string text_of(Graph& graph, const std::vector<NodeId>& form, const std::ve
 Integrability decide_integrability(Graph& graph, const System& system, const ProofSetting& setting,
                                    const ProofBudget& budget, const std::vector<NodeId>& given)
 {
-    Judge judge(graph, setting, accessory_inputs(system), 0, budget);
+    Judge judge(graph, setting, 0, budget);
     const ZeroDecider& decider = judge.decider();
     const ConstraintHull hull = constraint_hull(graph, system);
     const std::vector<std::vector<NodeId>> forms = annihilators(graph, system, decider, given);

@@ -38,7 +38,7 @@ double least_eigenvalue(const BallMatrix& A)
     for (std::size_t i = 0; i < A.rows; ++i)
         for (std::size_t j = 0; j < A.columns; ++j)
             middle.at(i, j) = exact_ball((A.at(i, j).middle() + A.at(j, i).middle()) / 2);
-    return proof::eigenvalues(middle, 64).front().real;
+    return proof::eigenvalues(middle, 64, 0x1p-50).front().real;
 }
 
 } // namespace
@@ -325,7 +325,7 @@ void EquilibriumCertificate::judge(RelativeEquilibrium& out)
     BallMatrix reduced(N->columns, N->columns);
     for (std::size_t i = 0; i < N->columns; ++i)
         for (std::size_t j = 0; j < N->columns; ++j) reduced.at(i, j) = within->at(i, j);
-    out.eigenvalues = proof::eigenvalues(reduced, full_bits);
+    out.eigenvalues = proof::eigenvalues(reduced, full_bits, out.certified ? 0x1p-128 : 0x1p-46);
     if (!out.certified) return;
     find_definite(jets, *N, out);
     if (out.definite != 0)

@@ -6,6 +6,7 @@
 #include "graph/simplify/simplify.hpp"
 #include "proof/least_squares.hpp"
 #include "verify/augmented_energy.hpp"
+#include "verify/leaf.hpp"
 #include "verify/sloped_functions.hpp"
 
 #include <fmt/format.h>
@@ -25,7 +26,9 @@ namespace {
 constexpr slong descent_bits = 64, linear_bits = AugmentedEnergy::precision;
 constexpr double perhaps_zero = 1e-5; ///< a coordinate that is taken as 0: tried, then certified
 constexpr long double dependent = 1e-9L;
-constexpr double converged = 1e-12; ///< of an equation, in units of its terms
+constexpr double surely_zero = 1e-14; ///< likewise, where functions do not keep it on its leaf
+constexpr double converged = 1e-12;   ///< of an equation, in units of its terms
+constexpr double certain_rounding = 0x1p-128, uncertain_rounding = 0x1p-46; ///< of A, in units of its norm
 
 using Nodes = std::vector<NodeId>;
 
@@ -70,19 +73,6 @@ OrthonormalSpan::Vector row_of(const BallMatrix& A, std::size_t row)
     return out;
 }
 
-/// The unit vector that sticks out farthest of a span that is not everything, or what sticks out of it.
-OrthonormalSpan::Vector direction_outside(const OrthonormalSpan& span, std::size_t n)
-{
-    OrthonormalSpan::Vector best;
-    for (std::size_t k = 0; k < n; ++k) {
-        OrthonormalSpan::Vector unit(n, 0);
-        unit[k] = 1;
-        OrthonormalSpan::Vector outside = span.outside(std::move(unit));
-        if (best.empty() || length_of(outside) > 1.0001L * length_of(best)) best = std::move(outside);
-    }
-    return best;
-}
-
 /// 0 where that is possible.
 double number_in(const Ball& ball)
 {
@@ -109,7 +99,8 @@ class RestSearch {
   public:
     RestSearch(Graph& graph, const MotionEquations& equations, const Doubles& state)
         : graph_(graph), equations_(equations), unknowns_(unknowns_of(equations)), residuals_(residuals_of(equations)),
-          all_(joined(joined(equations.state, unknowns_), equations.inputs))
+          all_(joined(joined(equations.state, unknowns_), equations.inputs)),
+          steps_(graph, equations.base, equations.fields)
     {
         choose_leaf(state);
     }
@@ -173,6 +164,9 @@ class RestSearch {
         OrthonormalSpan span(dependent);
         for (std::size_t k = 0; k < all.size(); ++k)
             if (span.add(row_of(at.slope, k)) && k >= equations_.constraints.size()) leaf_.push_back(all[k]);
+        if (equations_.fields.empty()) return;
+        dimension_ = steps_.tangent(state).size();
+        has_functions_ = dimension_ + span.size() >= equations_.base.size();
     }
 
     /// By Newton's steps from `start`: `values_` is a root then, or what is said keeps it from being one.
@@ -194,17 +188,26 @@ class RestSearch {
             return proof::Residual{middles(at.value), middles(at.slope), 0};
         };
         const auto first = values_.begin(), last = first + static_cast<std::ptrdiff_t>(moving_.size());
-        const auto found = proof::least_squares({first, last}, residual);
+        const bool has_leaf = !equations_.fields.empty() && dimension_ < equations_.base.size();
+        const Doubles on_leaf = has_leaf ? steps_.least_squares({first, last}, residual) : Doubles(first, last);
+        const proof::Residual there = residual(on_leaf);
+        if (!has_functions_ && !is_root(there, on_leaf)) return off_by(there);
+        const auto found = proof::least_squares(on_leaf, residual);
         if (!found) return "no equilibrium was found: Newton's method leaves what the rates are defined on";
         Doubles zeros = found->z;
         for (std::size_t k = 0; k < zeros.size(); ++k)
-            if (std::fabs(zeros[k]) < perhaps_zero && zeros[k] != values_[k]) zeros[k] = 0;
+            if (std::fabs(zeros[k]) < (has_functions_ ? perhaps_zero : surely_zero) && zeros[k] != values_[k])
+                zeros[k] = 0;
         const bool has_zeros = is_root(residual(zeros), zeros);
-        if (!has_zeros && !is_root(found->at, found->z))
-            return fmt::format("no equilibrium was found: Newton's method ends where the equations are off by {:.3g}",
-                               found->at.length());
+        if (!has_zeros && !is_root(found->at, found->z)) return off_by(found->at);
         std::ranges::copy(has_zeros ? zeros : found->z, first);
         return {};
+    }
+
+    [[nodiscard]] static std::string off_by(const proof::Residual& at)
+    {
+        return fmt::format("no equilibrium was found: Newton's method ends where the equations are off by {:.3g}",
+                           at.length());
     }
 
     [[nodiscard]] static bool is_root(const proof::Residual& at, const Doubles& z)
@@ -222,6 +225,12 @@ class RestSearch {
     [[nodiscard]] std::vector<Ball> certified(Equilibrium& out)
     {
         std::vector<Ball> at = exact_balls(values_);
+        const std::size_t there = equations_.fields.empty() ? dimension_ : steps_.tangent(values_).size();
+        if (there < dimension_)
+            out.leaf_kept = LeafKept::approached;
+        else if (!has_functions_)
+            out.leaf_kept = LeafKept::in_floating_point;
+        if (out.leaf_kept == LeafKept::in_floating_point) return at;
         for (const Rest rest : {Rest::zeros, Rest::simplified_zeros, Rest::as_it_is}) {
             const auto root = certified_root(rest);
             if (!root) continue;
@@ -267,7 +276,7 @@ class RestSearch {
         for (std::size_t k = 0; k < conditions->size(); ++k)
             if (free.empty() || !span.add(row_of(near.slope, k))) return std::nullopt;
         const std::size_t f = conditions->size(), all = free.size();
-        while (span.size() < all) span.add(direction_outside(span, all));
+        while (span.size() < all) span.add(span.farthest_outside(all));
         const auto equations = [&](const std::vector<Ball>& z) {
             const NewtonEquations at = functions.at(z, linear_bits);
             NewtonEquations out{BallMatrix(all, 1), BallMatrix(all, all)};
@@ -351,8 +360,10 @@ class RestSearch {
         const BallMatrix A = through(0, n);
         out.A = rows_in(A);
         out.B = rows_in(through(n + q, m));
-        out.eigenvalues = proof::eigenvalues(A, linear_bits);
+        out.eigenvalues = proof::eigenvalues(A, linear_bits, out.certified ? certain_rounding : uncertain_rounding);
         out.leaf = rows_in(SlopedFunctions(graph_, leaf_, all_).at(at, linear_bits).slope);
+        if (out.leaf_kept != LeafKept::by_functions)
+            for (Doubles& normal : steps_.normals(values_)) out.leaf.push_back(std::move(normal));
         for (Doubles& row : out.leaf) row.resize(n);
         for (const Ball& rate :
              proof::Evaluation(graph_, equations_.rates).enclose(inputs_at(exact_balls(values_)), descent_bits))
@@ -363,8 +374,11 @@ class RestSearch {
     Graph& graph_;
     const MotionEquations& equations_;
     Nodes unknowns_, residuals_;
-    Nodes all_; ///< state, unknowns, inputs
-    Nodes leaf_;
+    Nodes all_;  ///< state, unknowns, inputs
+    Nodes leaf_; ///< functions that are 0 on the leaf
+    LeafSteps steps_;
+    std::size_t dimension_ = 0; ///< of the leaf of the start
+    bool has_functions_ = true; ///< as many as there are directions off it
     Nodes moving_, conditions_; ///< of the last search
     Doubles values_;            ///< of all
 };

@@ -20,11 +20,18 @@ struct FoundInvariant {
     bool for_given_parameters = false; ///< proved for the parameter values of the file alone
 };
 
-/// Casimirs of E* first, then others. Linearly independent ones, up to constants and Casimirs of the base, which are no
-/// polynomials in H and in those before them; each with rate zero, proved, and without t. `graph`: a copy
-/// of the system's with H.
+/// Casimirs of E* first, then others: up to constants, H, base constraints and Casimirs of the base; each with rate
+/// zero, proved, and without t, and none that is a function of H, the constraints, the Casimirs and those before, by
+/// the rank of differentials at points drawn at random. `graph`: a copy of the system's with H.
 [[nodiscard]] std::vector<FoundInvariant> find_invariants(Graph& graph, const System& system,
                                                           const HamiltonianNodes& hamiltonian,
                                                           const InvariantAnsatz& ansatz = {});
+
+/// Functions of the base that are constant along vector fields on it, likewise, of the lowest degree first until there
+/// are `wanted`; none is a function of the `known` ones. At the parameter values of the system, and so are the fields.
+/// The ansatz has sin x beside cos x, and the coordinates under functions.
+[[nodiscard]] std::vector<NodeId> find_constants(Graph& graph, const System& system,
+                                                 const std::vector<std::vector<NodeId>>& fields,
+                                                 const std::vector<NodeId>& known, std::size_t wanted);
 
 } // namespace lagen

@@ -2,24 +2,17 @@
 /// Involutivity of a subbundle, pair by pair: its anchor equations say it, row by row.
 #include "verify/verify.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 namespace lagen {
 namespace {
 
-/// The check of one pair from those of its anchor equations; nothing where all are zero by structure.
-std::optional<Check> involutivity_of(const StructureReport& structure, const std::string& a, const std::string& b)
+/// Whether `check` tells more than `known` of the same pair: refuted before undecided before proved.
+bool is_worse(const Check& check, const Check& known)
 {
-    std::optional<Check> result;
-    for (const Check& check : structure.checks) {
-        if (check.name != "anchor" || check.indices[0] != a || check.indices[1] != b) continue;
-        const ProofStatus status = check.decision.status;
-        const bool worse = result && (status == ProofStatus::refuted || result->decision.status == ProofStatus::proved);
-        if (!result || (worse && result->decision.status != ProofStatus::refuted))
-            result = Check{"involutive", {a, b}, check.decision, {}, {}};
-        if (status == ProofStatus::refuted && result->hint.empty())
-            result->hint = "[" + a + ", " + b + "] leaves the distribution along " + check.indices[2] +
-                           ": a subbundle needs [rho(" + a + "), rho(" + b + ")] in the span of its sections";
-    }
-    return result;
+    const ProofStatus status = check.decision.status, before = known.decision.status;
+    return before != ProofStatus::refuted && (status == ProofStatus::refuted || before == ProofStatus::proved);
 }
 
 } // namespace
@@ -27,13 +20,21 @@ std::optional<Check> involutivity_of(const StructureReport& structure, const std
 void append_involutive(StructureReport& structure, const System& system)
 {
     if (!system.is_distribution) return;
-    const std::vector<NodeId>& y = system.algebroid.y;
-    const auto name_of = [&](std::size_t a) { return system.graph.input_name(y[a]); };
-    std::vector<Check> checks;
-    for (std::size_t a = 0; a < y.size(); ++a)
-        for (std::size_t b = a + 1; b < y.size(); ++b)
-            if (auto check = involutivity_of(structure, name_of(a), name_of(b))) checks.push_back(*std::move(check));
-    structure.checks.insert(structure.checks.end(), checks.begin(), checks.end());
+    std::vector<Check> found;
+    for (const Check& check : structure.checks) { // those of a pair stand together
+        if (check.name != "anchor") continue;
+        const std::vector<std::string> pair{check.indices[0], check.indices[1]};
+        const bool known = !found.empty() && found.back().indices == pair;
+        if (known && !is_worse(check, found.back())) continue;
+        Check involutive{"involutive", pair, check.decision, {}, {}};
+        if (check.decision.status == ProofStatus::refuted)
+            involutive.hint = "[" + pair[0] + ", " + pair[1] + "] leaves the distribution along " + check.indices[2] +
+                              ": a subbundle needs [rho(" + pair[0] + "), rho(" + pair[1] +
+                              ")] in the span of its sections";
+        if (known) found.pop_back();
+        found.push_back(std::move(involutive));
+    }
+    std::ranges::move(found, std::back_inserter(structure.checks));
 }
 
 } // namespace lagen

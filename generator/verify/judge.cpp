@@ -2,11 +2,12 @@
 /// The memory of decisions: hash-consing makes equal residuals the same node.
 #include "verify/judge.hpp"
 
+#include "verify/witness_point.hpp"
+
 namespace lagen {
 
-Judge::Judge(const Graph& graph, ProofSetting setting, std::set<std::string> accessory, std::size_t points,
-             const ProofBudget& budget)
-    : graph_(graph), setting_(std::move(setting)), accessory_(std::move(accessory)), points_(points),
+Judge::Judge(const Graph& graph, ProofSetting setting, std::size_t points, const ProofBudget& budget)
+    : graph_(graph), setting_(std::move(setting)), points_(points),
       decider_(std::make_unique<ZeroDecider>(graph, setting_, budget))
 {
 }
@@ -14,12 +15,7 @@ Judge::Judge(const Graph& graph, ProofSetting setting, std::set<std::string> acc
 Decision Judge::decide_anew(NodeId residual) const
 {
     Decision decision = decider_->decide(residual);
-    if (!decision.witness) return decision;
-    std::set<std::string> unused = accessory_;
-    const NodeId roots[] = {residual};
-    for (const NodeId id : reachable(graph_, roots))
-        if (graph_.op(id) == Op::input) unused.erase(graph_.input_name(id));
-    std::erase_if(decision.witness->point, [&](const auto& entry) { return unused.contains(entry.first); });
+    show_concerned(graph_, setting_, residual, decision);
     return decision;
 }
 

@@ -6,7 +6,6 @@
 
 #include <map>
 #include <memory>
-#include <set>
 
 namespace lagen {
 
@@ -15,10 +14,8 @@ constexpr std::size_t reevaluation_seed = 1;
 
 class Judge {
   public:
-    /// `accessory`: inputs that a witness names only where the residual depends on them (fibre coordinates, time).
     /// `points`: regular points of a re-evaluation; 0: none. Throws TriangularityError.
-    Judge(const Graph& graph, ProofSetting setting, std::set<std::string> accessory, std::size_t points,
-          const ProofBudget& budget);
+    Judge(const Graph& graph, ProofSetting setting, std::size_t points, const ProofBudget& budget);
 
     [[nodiscard]] const Decision& decide(NodeId residual);
     /// A decision from elsewhere, for when the residual is asked about.
@@ -33,7 +30,6 @@ class Judge {
 
     const Graph& graph_;
     ProofSetting setting_;
-    std::set<std::string> accessory_;
     std::size_t points_;
     std::unique_ptr<ZeroDecider> decider_;
     std::unique_ptr<ZeroDecider> second_; ///< of the other seed; made when it is needed

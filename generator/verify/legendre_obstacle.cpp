@@ -16,6 +16,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <set>
 
 namespace lagen {
 namespace {
@@ -128,9 +129,12 @@ class SmoothSet {
 /// Whether W does not depend on y: its derivatives are proved to be zero.
 bool is_quadratic(Graph& graph, const FibreHessian& hessian, SmoothSet& smooth)
 {
-    for (const NodeId entry : hessian.hessian)
+    std::set<NodeId> seen; // most entries are the same 0
+    for (const NodeId entry : hessian.hessian) {
+        if (graph.is_constant(entry) || !seen.insert(entry).second) continue;
         for (const NodeId slope : gradient(graph, entry, hessian.y))
             if (!graph.is_zero(slope) && smooth.decider().status(slope) != ProofStatus::proved) return false;
+    }
     return true;
 }
 

@@ -62,13 +62,6 @@ ProofSetting MappedSystems::setting()
     return setting;
 }
 
-std::set<std::string> MappedSystems::accessory() const
-{
-    std::set<std::string> names = accessory_inputs(from());
-    for (const NodeId Y : from().algebroid.y) names.insert(from().graph.input_name(Y));
-    return names;
-}
-
 MappedSystems::Arrows MappedSystems::arrows()
 {
     const Groupoid& groupoid = *from().groupoid;

@@ -6,8 +6,6 @@
 #include "mechanics/velocity_map.hpp"
 #include "verify/arrow_decider.hpp"
 
-#include <set>
-
 namespace lagen {
 
 class MappedSystems {
@@ -41,8 +39,6 @@ class MappedSystems {
 
     /// Points of the source which the map takes into the domain of the target.
     [[nodiscard]] ProofSetting setting();
-    /// Inputs that a witness names only where it needs them.
-    [[nodiscard]] std::set<std::string> accessory() const;
 
     /// An arrow g and one that follows it: s(h) = t(g).
     struct Arrows {

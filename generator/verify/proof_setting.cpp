@@ -79,17 +79,4 @@ ProofSetting proof_setting(Graph& graph, const System& system)
     return setting;
 }
 
-std::set<std::string> accessory_inputs(const System& system)
-{
-    std::vector<NodeId> inputs = system.velocities();
-    append(inputs, system.mu);
-    if (system.control) append(inputs, system.control->u);
-    append(inputs, system.inputs);
-    append(inputs, system.states);
-    inputs.push_back(system.time);
-    std::set<std::string> names;
-    for (const NodeId input : inputs) names.insert(system.graph.input_name(input));
-    return names;
-}
-
 } // namespace lagen

@@ -6,14 +6,9 @@
 #include "mechanics/system.hpp"
 #include "proof/decide.hpp"
 
-#include <set>
-
 namespace lagen {
 
 /// `graph`: a copy of the system's, in which what a nonholonomic system is made of is put on the constraint.
 [[nodiscard]] ProofSetting proof_setting(Graph& graph, const System& system);
-
-/// Inputs that only some claims are about, which a witness names only where it needs them: y, mu, u and t.
-[[nodiscard]] std::set<std::string> accessory_inputs(const System& system);
 
 } // namespace lagen

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/relative_equilibria.hpp"
 
-#include "algebra/orthonormal_span.hpp"
+#include "activity.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/evaluate.hpp"
 #include "mechanics/symplectic.hpp"
@@ -9,6 +9,8 @@
 #include "verify/augmented_energy.hpp"
 #include "verify/energy_momentum.hpp"
 #include "verify/find_invariants.hpp"
+#include "verify/generic_points.hpp"
+#include "verify/leaf.hpp"
 #include "verify/proof_setting.hpp"
 #include "verify/singular_set.hpp"
 
@@ -88,7 +90,11 @@ class EquilibriumFinder {
         for (const Doubles& z : points)
             for (const double slope : middles(energy_->at(exact_balls(z), search_bits)[0].slope))
                 if (std::isfinite(slope)) slope_ = std::max(slope_, std::fabs(slope));
-        for (const Doubles& z : points) consider(z);
+        Activity activity("searching from starts", points.size());
+        for (const Doubles& z : points) {
+            activity.next();
+            consider(z);
+        }
         std::ranges::stable_sort(out_.found, {}, &RelativeEquilibrium::energy);
         return std::move(out_);
     }
@@ -121,15 +127,21 @@ class EquilibriumFinder {
         for (auto* columns : {&system_at_.algebroid.anchor, &system_at_.algebroid.bracket})
             for (Column& column : *columns)
                 for (ColumnEntry& entry : column) entry.value = fixed(entry.value);
-        std::vector<NodeId> candidates = system_.functions.constraints;
-        for (const NodeId casimir : system_.functions.casimirs) candidates.push_back(casimir);
+        const Leaves leaves = leaves_of(graph_, system_);
+        std::vector<NodeId> candidates = leaves.constraints;
+        candidates.insert(candidates.end(), leaves.casimirs.begin(), leaves.casimirs.end());
         for (const FoundInvariant& each : find_invariants(graph_, system_, hamiltonian))
             candidates.push_back(each.value);
+        ProofSetting setting = setting_at_values(graph_, proof_setting(graph_, system_), system_.parameter_values);
+        for (const NodeId mu : system_.mu)
+            if (std::ranges::find(setting.variables, mu) == setting.variables.end()) setting.variables.push_back(mu);
+        const std::vector<NamedNumbers> points = generic_points(graph_, setting, 5);
+        GenericSpan differentials(graph_, points);
         for (std::size_t k = 0; k < candidates.size(); ++k) {
             const NodeId value = fixed(candidates[k]);
             const NodeId only[] = {value};
             if (depends_on_any(graph_, only, out_.cyclic)) continue;
-            if (!is_independent(value)) continue;
+            if (!differentials.add_differential(value, out_.coordinates)) continue;
             const bool flowless = generates_nothing(value, out_.coordinates);
             const std::vector<NodeId> by_momenta = gradient(graph_, value, system_.mu);
             if (!flowless && depends_on_any(graph_, by_momenta, system_.mu)) continue;
@@ -153,28 +165,6 @@ class EquilibriumFinder {
     [[nodiscard]] bool is_proved_zero(NodeId node)
     {
         return graph_.is_zero(node) || decider().status(node) == ProofStatus::proved;
-    }
-    /// Whether df is no combination of the differentials of those before, at points drawn at random.
-    [[nodiscard]] bool is_independent(NodeId f)
-    {
-        std::vector<NodeId> slopes;
-        for (const ConservedFunction& each : out_.conserved)
-            for (const NodeId slope : gradient(graph_, each.value, out_.coordinates)) slopes.push_back(slope);
-        for (const NodeId slope : gradient(graph_, f, out_.coordinates)) slopes.push_back(slope);
-        std::mt19937_64 random(1);
-        const std::size_t n = out_.coordinates.size();
-        for (int point = 0; point < 3; ++point) {
-            std::map<std::string, long double> inputs;
-            for (const NodeId z : out_.coordinates)
-                inputs[graph_.input_name(z)] = static_cast<long double>(random() >> 11U) * 0x1p-53L + 0.5L;
-            const std::vector<long double> values = evaluate<long double>(graph_, slopes, inputs);
-            OrthonormalSpan span(1e-9L);
-            for (std::size_t i = 0; i + 1 < values.size() / n; ++i)
-                (void)span.add({values.begin() + static_cast<std::ptrdiff_t>(i * n),
-                                values.begin() + static_cast<std::ptrdiff_t>((i + 1) * n)});
-            if (span.add({values.end() - static_cast<std::ptrdiff_t>(n), values.end()})) return true;
-        }
-        return false;
     }
     [[nodiscard]] bool generates_nothing(NodeId f, const std::vector<NodeId>& coordinates)
     {

@@ -9,7 +9,7 @@
 #pragma once
 
 #include "mechanics/hamilton.hpp"
-#include "proof/ball_matrix.hpp"
+#include "proof/eigenvalues.hpp"
 
 #include <cstdint>
 

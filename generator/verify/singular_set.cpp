@@ -7,6 +7,7 @@
 #include "graph/core/lower.hpp"
 #include "verify/at_values.hpp"
 #include "verify/reduced_fraction.hpp"
+#include "verify/witness_point.hpp"
 
 #include <algorithm>
 #include <array>
@@ -20,19 +21,42 @@ constexpr std::size_t longest_factor = 80;
 /// One slice a variable is looked at: none may take long.
 constexpr ProofBudget slice_budget{.products = 200'000};
 
-/// A point of the slice `zero` where a determinant vanishes; it does on the whole slice. None where something is not
-/// defined on the slice, or the constraints are not triangular there.
-std::optional<NamedPoint> singular_point(Graph& graph, const ProofSetting& setting, const ProofBudget& budget,
-                                         const Replacements& zero, const std::vector<NodeId>& determinants)
+using SliceValues = std::vector<std::pair<NodeId, SliceValue>>; ///< inputs with what they are there
+
+/// The point with what the slice adds, in the order of the setting, as far as the determinants are about it.
+NamedPoint point_of_slice(const Graph& graph, const ProofSetting& setting, const SliceValues& slice, NamedPoint point,
+                          const std::vector<NodeId>& determinants)
 {
-    const std::optional<ProofSetting> slice = replaced(graph, setting, zero);
-    const auto there = substitute_where_defined(graph, determinants, zero);
-    if (!slice || !there) return {};
-    const std::unique_ptr<ZeroDecider> decider = ZeroDecider::make(graph, *slice, smaller(budget, slice_budget));
+    std::set<std::string> names = input_names(graph, determinants);
+    for (const auto& [input, value] : slice) {
+        point.emplace_back(graph.input_name(input), value.shown);
+        names.insert(graph.input_name(input));
+    }
+    NamedPoint ordered;
+    for (const std::vector<NodeId>* inputs : {&setting.variables, &setting.parameters})
+        for (const NodeId input : *inputs)
+            if (const auto at = std::ranges::find(point, graph.input_name(input), &NamedPoint::value_type::first);
+                at != point.end())
+                ordered.push_back(*at);
+    return concerned(graph, setting, std::move(names), ordered);
+}
+
+/// A point of the slice where a determinant vanishes; it does on the whole slice. None where something is not defined
+/// on the slice, or the constraints are not triangular there.
+std::optional<NamedPoint> singular_point(Graph& graph, const ProofSetting& setting, const ProofBudget& budget,
+                                         const SliceValues& slice, const std::vector<NodeId>& determinants)
+{
+    Replacements values;
+    for (const auto& [input, value] : slice) values.emplace_back(input, value.node);
+    const std::optional<ProofSetting> rest = replaced(graph, setting, values);
+    const auto there = substitute_where_defined(graph, determinants, values);
+    if (!rest || !there) return {};
+    const std::unique_ptr<ZeroDecider> decider = ZeroDecider::make(graph, *rest, smaller(budget, slice_budget));
     std::optional<NamedPoint> point = decider ? decider->sample_point() : std::nullopt;
     if (!point) return {};
     for (const NodeId determinant : *there)
-        if (decider->status(determinant) == ProofStatus::proved) return point;
+        if (decider->status(determinant) == ProofStatus::proved)
+            return point_of_slice(graph, setting, slice, *std::move(point), determinants);
     return {};
 }
 
@@ -57,12 +81,9 @@ std::vector<NamedPoint> singular_points(Graph& graph, const ProofSetting& settin
     std::vector<NamedPoint> points;
     if (setting.is_wider) return points;
     for (std::size_t k = 0; k < setting.variables.size() && points.size() < point_limit; ++k) {
-        const NodeId variable = setting.variables[k];
-        std::optional<NamedPoint> point =
-            singular_point(graph, setting, budget, {{variable, value.node}}, determinants);
-        if (!point) continue;
-        point->insert(point->begin() + static_cast<std::ptrdiff_t>(k), {graph.input_name(variable), value.shown});
-        points.push_back(std::move(*point));
+        const SliceValues slice{{setting.variables[k], value}};
+        if (auto point = singular_point(graph, setting, budget, slice, determinants))
+            points.push_back(*std::move(point));
     }
     return points;
 }
@@ -75,12 +96,9 @@ std::vector<NamedPoint> singular_parameters(Graph& graph, const ProofSetting& se
     for (std::size_t k = 0; k < setting.parameters.size() && points.size() < point_limit; ++k) {
         const NodeId parameter = setting.parameters[k];
         if (!depends_on_any(graph, determinants, std::array{parameter})) continue;
-        std::optional<NamedPoint> point =
-            singular_point(graph, setting, budget, {{parameter, graph.constant(0)}}, determinants);
-        if (!point) continue;
-        const std::size_t place = setting.variables.size() + k;
-        point->insert(point->begin() + static_cast<std::ptrdiff_t>(place), {graph.input_name(parameter), Rational(0)});
-        points.push_back(std::move(*point));
+        const SliceValues slice{{parameter, {graph.constant(0), Rational(0)}}};
+        if (auto point = singular_point(graph, setting, budget, slice, determinants))
+            points.push_back(*std::move(point));
     }
     return points;
 }
@@ -95,14 +113,10 @@ std::optional<NamedPoint> singular_corner(Graph& graph, const ProofSetting& sett
     for (std::size_t count = used.size() <= most_in_corner ? 2 : used.size(); count <= used.size(); ++count) {
         Places chosen = first_places(count);
         do {
-            Replacements zero;
-            for (const std::size_t place : chosen) zero.emplace_back(setting.variables[used[place]], graph.constant(0));
-            std::optional<NamedPoint> point = singular_point(graph, setting, budget, zero, determinants);
-            if (!point) continue;
+            SliceValues zero;
             for (const std::size_t place : chosen)
-                point->insert(point->begin() + static_cast<std::ptrdiff_t>(used[place]),
-                              {graph.input_name(setting.variables[used[place]]), Rational(0)});
-            return point;
+                zero.push_back({setting.variables[used[place]], {graph.constant(0), Rational(0)}});
+            if (auto point = singular_point(graph, setting, budget, zero, determinants)) return point;
         } while (next_places(chosen, used.size()));
     }
     return std::nullopt;

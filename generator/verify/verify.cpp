@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Every check that a system calls for, decided on one graph under one setting.
 #include "verify/verify.hpp"
+#include "activity.hpp"
 #include "verify/claims.hpp"
 
 #include <algorithm>
@@ -60,18 +61,27 @@ Report verify(const System& system, const std::vector<NamedTree>& extra_invarian
               const ProofBudget& budget)
 {
     Report report;
+    const Activity whole("deciding " + system.name);
+    std::optional<Activity> activity(std::in_place, "divisors");
     Claims claims(system, points, budget);
+    activity.emplace("structure equations");
     claims.decide_structure(report.structure);
     append_involutive(report.structure, system);
+    activity.emplace("groupoid and forms");
     claims.decide_groupoid(report.structure);
     claims.decide_forms(report.structure);
+    activity.emplace("regularity");
     report.mechanics.regularity = claims.decide_regularity();
     report.mechanics.discrete = claims.decide_discrete_regularity();
+    activity.emplace("distribution");
     claims.decide_distribution(report);
+    activity.emplace("Legendre transform, symmetries, Hamilton-Jacobi equation");
     claims.decide_legendre(report.structure);
     claims.decide_symmetries(report.structure);
     claims.decide_hamilton_jacobi(report.structure, report.mechanics.regularity);
+    activity.emplace("invariants");
     claims.decide_invariants(report, extra_invariants);
+    activity.emplace("controls");
     claims.decide_controls(report);
     for (const Check& check : report.structure.checks) require_confirmed(check);
     report.structure.reevaluation = summary_of(report.structure, points);

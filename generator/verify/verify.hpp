@@ -64,6 +64,12 @@ struct Regularity {
     std::vector<std::vector<std::pair<std::string, Tree>>>
         kernel; ///< where degenerate: vectors k with W k = 0, proved, as components by fibre coordinate (and inner
                 ///< unknown)
+
+    /// H = mu_a X^a(t, x) + f(t, x): x' = rho(X), whatever the momenta are.
+    [[nodiscard]] bool is_first_order() const
+    {
+        return of == Matrix::hamiltonian && kind == Kind::degenerate && rank == 0;
+    }
 };
 
 /// Whether other values of the parameters might be decided otherwise.

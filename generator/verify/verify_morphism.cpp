@@ -18,7 +18,7 @@ class MorphismClaims {
     MorphismClaims(const SystemMorphism& morphism, std::size_t points, const ProofBudget& budget)
         : both_(morphism), morphism_(both_.morphism), from_(both_.from()), to_(both_.to()), graph_(both_.graph),
           budget_(budget), along_(both_.along), matrix_(both_.matrix),
-          judge_(std::make_unique<Judge>(graph_, both_.setting(), both_.accessory(), points, budget))
+          judge_(std::make_unique<Judge>(graph_, both_.setting(), points, budget))
     {
     }
 
@@ -268,7 +268,7 @@ void append_equality(StructureReport& structure, const SystemMorphism& morphism,
                      const ProofBudget& budget)
 {
     MappedSystems both(morphism);
-    Judge judge(both.graph, both.setting(), both.accessory(), 0, budget);
+    Judge judge(both.graph, both.setting(), 0, budget);
     const auto compare = [&](const std::vector<NodeId>& mine, const std::vector<NodeId>& theirs, const auto& name_of) {
         if (mine.size() != theirs.size()) return;
         const std::vector<NodeId> moved = transplant(both.graph, other.source.graph, theirs, {});

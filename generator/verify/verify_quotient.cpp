@@ -84,7 +84,7 @@ StructureReport verify_right_action(const System& moving, const ProofBudget& bud
 bool is_invariant(Graph& graph, const System& whole, const InfinitesimalAction& action, NodeId f,
                   const ProofBudget& budget)
 {
-    Judge judge(graph, proof_setting(graph, whole), accessory_inputs(whole), 0, budget);
+    Judge judge(graph, proof_setting(graph, whole), 0, budget);
     return std::ranges::all_of(action.fields, [&](const std::vector<NodeId>& X) {
         const NodeId rate = lift_of_function(graph, whole, f, X);
         return graph.is_zero(rate) || judge.decide(rate).status == ProofStatus::proved;
@@ -94,7 +94,7 @@ bool is_invariant(Graph& graph, const System& whole, const InfinitesimalAction& 
 bool is_invariant_set(Graph& graph, const System& whole, const InfinitesimalAction& action, NodeId f,
                       const ProofBudget& budget)
 {
-    Judge judge(graph, proof_setting(graph, whole), accessory_inputs(whole), 0, budget);
+    Judge judge(graph, proof_setting(graph, whole), 0, budget);
     const auto is_zero = [&](NodeId node) {
         return graph.is_zero(node) || judge.decide(node).status == ProofStatus::proved;
     };
@@ -108,7 +108,7 @@ StructureReport verify_symmetry(Graph& graph, const System& whole, const Infinit
                                 const std::vector<std::string>& names, const ProofBudget& budget)
 {
     StructureReport report;
-    Judge judge(graph, proof_setting(graph, whole), accessory_inputs(whole), 0, budget);
+    Judge judge(graph, proof_setting(graph, whole), 0, budget);
     for (std::size_t b = 0; b < action.fields.size(); ++b)
         report.checks.push_back({"symmetry",
                                  {names[b]},
@@ -152,9 +152,7 @@ StructureReport verify_quotient(Graph& graph, const System& whole, const Infinit
     setting.variables.insert(setting.variables.end(), rates.begin(), rates.end());
     setting.variables.insert(setting.variables.end(), quotient.w.begin(), quotient.w.end());
     setting.defined.push_back(graph.divide(graph.constant(1), quotient.determinant));
-    std::set<std::string> accessory = accessory_inputs(whole);
-    for (const NodeId node : setting.variables) accessory.insert(graph.input_name(node));
-    Judge judge(graph, setting, std::move(accessory), 0, budget);
+    Judge judge(graph, setting, 0, budget);
     for (std::size_t a = 0; a < reduced.r(); ++a) {
         NodeId sum = graph.negate(wanted[a]);
         if (a < u.size())

@@ -8,9 +8,9 @@
 #include "mechanics/variations.hpp"
 #include "verify/carried_distribution.hpp"
 #include "verify/fibre_rank.hpp"
-#include "verify/proof_setting.hpp"
 
 #include <algorithm>
+#include <set>
 
 namespace lagen {
 
@@ -38,7 +38,7 @@ class Reduction {
         if (from_.control && to_.control)
             setting.variables.insert(setting.variables.end(), both_.target_momenta().begin(),
                                      both_.target_momenta().end());
-        std::set<std::string> accessory = both_.accessory(), taken;
+        std::set<std::string> taken;
         for (const NodeId free : both_.morphism.free_parameters) taken.insert(graph_.input_name(free));
         for (const auto& [letter, list] : {std::pair{"σ_", &s_}, std::pair{"σ̇_", &sdot_}})
             for (std::size_t b = 0; b < from_.r(); ++b) {
@@ -46,9 +46,8 @@ class Reduction {
                 while (from_.declares(name) || to_.declares(name) || taken.contains(name)) name += "'";
                 list->push_back(graph_.input(name));
                 setting.variables.push_back(list->back());
-                accessory.insert(std::move(name));
             }
-        judge_ = std::make_unique<Judge>(graph_, std::move(setting), std::move(accessory), 0, budget);
+        judge_ = std::make_unique<Judge>(graph_, std::move(setting), 0, budget);
     }
 
     ReductionReport run()

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <set>
 
 namespace lagen {
 
@@ -92,9 +93,7 @@ StructureReport verify_routh(Graph& graph, const System& system, const Routhian&
     for (const NodeId node : variables)
         if (std::ranges::find(setting.variables, node) == setting.variables.end()) setting.variables.push_back(node);
     setting.defined.insert(setting.defined.end(), routhian.velocities.begin(), routhian.velocities.end());
-    std::set<std::string> accessory = accessory_inputs(system);
-    for (const NodeId node : ydot) accessory.insert(name_of(node));
-    Judge judge(graph, setting, std::move(accessory), 0, budget);
+    Judge judge(graph, setting, 0, budget);
     const auto append = [&](const char* name, NodeId about, NodeId residual) -> Check& {
         return report.checks.emplace_back(Check{name, {name_of(about)}, judge.decide(residual), {}, {}});
     };

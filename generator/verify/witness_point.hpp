@@ -5,7 +5,19 @@
 #include "proof/decide.hpp"
 #include "proof/enclosure.hpp"
 
+#include <set>
+
 namespace lagen {
+
+/// The names of the inputs that nodes depend on.
+[[nodiscard]] std::set<std::string> input_names(const Graph& graph, const std::vector<NodeId>& nodes);
+
+/// What of a point something in these inputs is about: their values, and those of what a constraint ties to them.
+[[nodiscard]] NamedPoint concerned(const Graph& graph, const ProofSetting& setting, std::set<std::string> names,
+                                   const NamedPoint& point);
+
+/// Leaves in the witness of a decision, where it has one, what the residual is about; the rest stays in `whole`.
+void show_concerned(const Graph& graph, const ProofSetting& setting, NodeId residual, Decision& decision);
 
 class WitnessPoint {
   public:

@@ -79,7 +79,108 @@ void compare_with_differences(const std::string& model, const std::vector<std::s
     }
 }
 
+json::Value linearised_text(const std::string& text, const std::vector<std::string>& more = {})
+{
+    const std::string path = fresh_folder() + "/model.toml";
+    write_text(path, text);
+    std::vector<std::string> arguments{path};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return linearised(arguments);
+}
+
+/// A body that hangs at a point: attitudes R as a matrix without a word of R^T R = 1.
+std::string hanging_body(const std::string& start)
+{
+    return "[base]\ncoordinates = [\"R[1..3,1..3]\"]\n[fibre]\ncoordinates = [\"w[1..3]\"]\n[algebroid]\nkind = "
+           "\"action\"\nalgebra = \"so(3)\"\nanchor = { R = \"R*hat(w)\" }\n[lagrangian]\nL = \"dot(w, "
+           "diag([1,2,2.5])*w)/2 - 2*R[3,3]\"\n[scene.default]\ninitial = { R = \"" +
+           start + "\", w = [0,0,0] }\n";
+}
+
+/// The eigenvalues with their multiplicities, "-2 x4"; those below the axis are left out. They add up.
+std::vector<std::string> multiplicities(const json::Value& found)
+{
+    std::vector<std::string> out;
+    long double sum = 0;
+    for (const json::Value& mode : found["modes"].entries) {
+        sum += mode["multiplicity"].number();
+        const json::Value& lambda = mode["eigenvalue"];
+        if (lambda[1].number() < 0) continue;
+        out.push_back(lambda[0].text + (lambda[1].number() > 0 ? " + " + lambda[1].text + "i" : "") + " x" +
+                      mode["multiplicity"].text);
+    }
+    CHECK(sum == static_cast<long double>(found["states"].size()));
+    CHECK(found["eigenvalues"].size() == found["states"].size());
+    return out;
+}
+
 } // namespace
+
+TEST_CASE("an attitude without declared Casimirs stays a rotation, and has the frequencies of one")
+{
+    for (const std::string start : {"exp(hat([3,0.05,0.02]))", "exp(hat([0.4,-0.1,2]))*exp(hat([2.5,0.2,0]))"}) {
+        const json::Value found = linearised_text(hanging_body(start));
+        CHECK(found["certified"].text == "true");
+        CHECK(found["leaf"].text == "kept");
+        CHECK(found["equilibrium"]["R[3,3]"].text == "-1");
+        for (int i = 1; i <= 3; ++i)
+            for (int j = 1; j <= 3; ++j) {
+                long double product = 0;
+                for (int k = 1; k <= 3; ++k)
+                    product += found["equilibrium"]["R[" + std::to_string(k) + "," + std::to_string(i) + "]"].number() *
+                               found["equilibrium"]["R[" + std::to_string(k) + "," + std::to_string(j) + "]"].number();
+                CHECK(std::abs(product - (i == j ? 1 : 0)) < 1e-15L);
+            }
+        // sqrt(2/2) and sqrt(2/1); turning about the vertical, and six directions off the leaf, are 0
+        CHECK(multiplicities(found).front() == "0 x8");
+        REQUIRE(found["modes"].size() == 5);
+        std::vector<long double> frequencies;
+        for (const json::Value& mode : found["modes"].entries) frequencies.push_back(mode["frequency"].number());
+        std::ranges::sort(frequencies);
+        CHECK(frequencies[1] == Approx(1).epsilon(1e-15));
+        CHECK(frequencies[4] == Approx(std::sqrt(2.0)).epsilon(1e-15));
+    }
+}
+
+TEST_CASE("a vector without declared Casimirs keeps its length, and a place beside an attitude its frame")
+{
+    const json::Value top = linearised_text(
+        "[base]\ncoordinates = [\"g[1..3]\"]\n[fibre]\ncoordinates = [\"w[1..3]\"]\n[algebroid]\nkind = \"action\"\n"
+        "algebra = \"so(3)\"\nanchor = { g = \"cross(g, w)\" }\n[lagrangian]\nL = \"dot(w, w)/2 + g[3]\"\n[forces]\n"
+        "w = \"-w\"\n[scene.default]\ninitial = { g = [1.2, 0.3, 1.6], w = [0, 0, 0] }\n");
+    CHECK(top["equilibrium"]["g[3]"].number() == Approx(std::sqrt(1.44 + 0.09 + 2.56)).epsilon(1e-15));
+    CHECK(top["certified"].text == "true");
+    // The quadrotor over the origin, where its law holds it.
+    const json::Value hovering = linearised({models_folder() + "/../docs/cookbook/quadrotor.toml"});
+    for (const char* name : {"R[1,1]", "R[2,2]", "R[3,3]"})
+        CHECK(hovering["equilibrium"][name].number() == Approx(1).epsilon(1e-12));
+    for (const char* name : {"x[1]", "x[2]", "x[3]", "w[3]"})
+        CHECK(std::abs(hovering["equilibrium"][name].number()) < 1e-12L);
+    CHECK(hovering["leaf"].text == "kept");
+}
+
+TEST_CASE("modes add up to the states: lags in a row, hidden instability, chains of integrators")
+{
+    const auto servo = [](const std::string& L, const std::string& states, const std::string& force) {
+        return "[inputs]\nu = 0\n[base]\ncoordinates = [\"x\"]\n[fibre]\ncoordinates = [\"v\"]\n[algebroid]\nkind = "
+               "\"tangent\"\n[lagrangian]\nL = \"v^2/2" +
+               L + "\"\n[states]\n" + states + "[forces]\nv = \"u" + force +
+               "\"\n[scene.default]\ninitial = { x = 0, v = 0 }\n";
+    };
+    using Lines = std::vector<std::string>;
+    CHECK(multiplicities(linearised_text(servo(" - 2*x^2", "f = \"2*(x - f)\"\ng = \"2*(f - g)\"\ne = \"x - 0.1*e\"\n",
+                                               " - 4*v + 4*g"))) != Lines{});
+    CHECK(multiplicities(linearised_text(servo(" - 2*x^2", "f = \"2*(u - f)\"\ng = \"2*(f - g)\"\ne = \"x - 0.1*e\"\n",
+                                               " - 4*v + 4*g"))) == Lines{"-2 x4", "-0.1 x1"});
+    CHECK(multiplicities(linearised_text(servo(" - 49*x^2/2",
+                                               "a = \"7*(x + a)\"\nb = \"7*(a + b)\"\nc = \"7*(b + c)\"\n"
+                                               "q = \"c\"\n",
+                                               " + 14*v"))) == Lines{"0 x1", "7 x5"});
+    CHECK(multiplicities(linearised_text(servo("", "i = \"x\"\nj = \"i\"\nk = \"j\"\n", ""))) == Lines{"0 x5"});
+    // Two equal oscillators, one driving the other: +-3i twice each.
+    CHECK(multiplicities(linearised_text(servo(" - 9*x^2/2", "p = \"q\"\nq = \"x - 9*p\"\n", ""))) ==
+          Lines{"0 + 3i x2"});
+}
 
 TEST_CASE("a cart and pole without friction has the eigenvalues of its formula, up and down")
 {

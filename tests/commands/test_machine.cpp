@@ -2,6 +2,8 @@
 /// What the machine may lack: a compiler, room on a disk, somebody who reads, patience.
 #include "program.hpp"
 
+#include "activity.hpp"
+#include "commands/machine/activity_watch.hpp"
 #include "support/golden.hpp"
 
 #include <catch2/catch.hpp>
@@ -9,7 +11,10 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
+#include <fcntl.h>
 #include <filesystem>
+#include <pty.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -141,14 +146,96 @@ TEST_CASE("a compiler that fails is quoted, and leaves nothing in the cache")
     CHECK(names_in(cache).empty());
 }
 
-TEST_CASE("a cache that cannot be used is replaced by the next place")
+TEST_CASE("a cache that cannot be used is replaced by a temporary folder, which is said once and serves the next run")
 {
-    const std::string home = fresh_folder();
-    const std::string compiler = quick_compiler(home + "/called");
-    const Outcome outcome =
-        call(short_run, {.environment = {{"LAGEN_CACHE", "/dev/null/cache"}, {"HOME", home}, {"CXX", compiler}}});
-    CHECK(outcome.code == 0);
-    CHECK(names_in(home + "/.cache/lagen").size() == 2); // the program and its record
+    const std::string temporary = fresh_folder(), witness = fresh_folder() + "/called";
+    const std::string file = fresh_folder() + "/file", unusable = file + "/cache";
+    write_text(file, "");
+    const std::string own = temporary + "/lagen-" + std::to_string(::getuid());
+    const Surroundings around{
+        .environment = {{"LAGEN_CACHE", unusable}, {"TMPDIR", temporary}, {"CXX", quick_compiler(witness)}}};
+    const std::string note =
+        "note: '" + unusable + "' is no folder for compiled scenes: Not a directory; they go to '" + own + "'\n";
+    for (int k = 0; k < 2; ++k) {
+        const Outcome outcome = call(short_run, around);
+        CHECK(outcome.code == 0);
+        CHECK_THAT(outcome.err, Catch::StartsWith(note));
+        CHECK(outcome.err.find("note:", 1) == std::string::npos);
+    }
+    CHECK(read_text(witness) == "called\n");
+    CHECK(names_in(temporary) == std::vector<std::string>{"lagen-" + std::to_string(::getuid())});
+    CHECK(names_in(own).size() == 2); // the program and its record
+
+    const std::string taken = fresh_folder();
+    write_text(taken + "/lagen-" + std::to_string(::getuid()), "somebody's");
+    const Outcome nowhere = call(short_run, {.environment = {{"LAGEN_CACHE", unusable}, {"TMPDIR", taken}}});
+    CHECK(nowhere.code == 5);
+    CHECK_THAT(nowhere.err, Catch::StartsWith("error: '" + unusable +
+                                              "' is no folder for compiled scenes: Not a directory\nand neither is '" +
+                                              taken + "/lagen-"));
+}
+
+TEST_CASE("a full cache, and one that no program is run from, are replaced likewise")
+{
+    const std::string witness = fresh_folder() + "/called", temporary = fresh_folder();
+    const auto note_for = [&](const std::string& options, const std::string& fill) {
+        // A file system of our own: a namespace where this user may mount. Where none may, nothing is tested.
+        const std::string shell = script("exec unshare -Urm sh -c 'mount -t tmpfs -o " + options + " none /mnt && " +
+                                         fill + " exec \"" + LAGEN_PROGRAM + "\" \"$@\"' sh \"$@\"\n");
+        const Outcome outcome = call(
+            short_run,
+            {.environment = {{"LAGEN_CACHE", "/mnt/cache"}, {"TMPDIR", temporary}, {"CXX", quick_compiler(witness)}},
+             .program = shell});
+        return outcome.code == 0 ? outcome.err.substr(0, outcome.err.find(';')) : "";
+    };
+    if (std::system("unshare -Urm mount -t tmpfs none /mnt 2>/dev/null") != 0) return;
+    CHECK(note_for("noexec", "") ==
+          "note: '/mnt/cache' is no folder for compiled scenes: no program can be run from there (noexec)");
+    CHECK(note_for("ro", "") == "note: '/mnt/cache' is no folder for compiled scenes: Read-only file system");
+    CHECK(note_for("size=1m", "") == "note: '/mnt/cache' is no folder for compiled scenes: No space left on device");
+}
+
+TEST_CASE("a damaged program or record in the cache is made again")
+{
+    const std::string witness = fresh_folder() + "/called", cache = fresh_folder();
+    const Surroundings around{.environment = {{"LAGEN_CACHE", cache}, {"CXX", quick_compiler(witness)}}};
+    REQUIRE(call(short_run, around).code == 0);
+    const std::vector<std::string> names = names_in(cache);
+    REQUIRE(names.size() == 2);
+    std::size_t calls = 1;
+    const auto is_mended = [&](bool compiles) {
+        calls += compiles ? 1 : 0;
+        const Outcome outcome = call(short_run, around);
+        INFO(outcome.err);
+        CHECK(outcome.code == 0);
+        CHECK(read_text(witness).size() == calls * std::string("called\n").size());
+        CHECK(names_in(cache) == names);
+        CHECK(call(short_run, around).code == 0);
+        CHECK(read_text(witness).size() == calls * std::string("called\n").size());
+    };
+    for (const std::string& name : names) {
+        const std::string file = cache + "/" + name, good = read_text(file);
+        const bool compiles = !name.ends_with(".run");
+        std::string changed = good;
+        changed[good.size() / 2] = static_cast<char>(changed[good.size() / 2] ^ 1);
+        for (const std::string& damaged :
+             {std::string(), good.substr(0, good.size() / 2), good.substr(0, good.size() - 1), changed, good + "x",
+              std::string("some text\n"),
+              std::string("\x7f"
+                          "ELF\2\1\1")}) {
+            write_text(file, damaged);
+            is_mended(compiles);
+        }
+        fs::remove(file);
+        fs::create_directory(file);
+        write_text(file + "/inside", "");
+        is_mended(compiles);
+        fs::remove(file);
+        fs::create_symlink("nowhere", file);
+        is_mended(compiles);
+    }
+    fs::permissions(cache + "/" + names[0], fs::perms::owner_read | fs::perms::owner_write);
+    is_mended(true);
 }
 
 TEST_CASE("the cache forgets what was used longest ago")
@@ -245,15 +332,35 @@ TEST_CASE("closed standard streams are noticed and no file takes their place")
     CHECK(call({"generate", "refuted.toml"}, {.error_closed = true}).code == 1);
 }
 
-TEST_CASE("a reader who goes away ends the program with an error")
+TEST_CASE("a reader who goes away is no error: every command comes quietly to its own end")
 {
     int ends[2];
     REQUIRE(::pipe(ends) == 0);
     ::close(ends[0]);
-    const Outcome outcome = call({"generate", "kepler.toml"}, {.output = "/dev/fd/" + std::to_string(ends[1])});
+    const Surroundings unread{.output = "/dev/fd/" + std::to_string(ends[1])};
+    const std::vector<std::vector<std::string>> lines{{"generate", "kepler.toml"},
+                                                      {"derive", "kepler.toml"},
+                                                      {"check", "kepler.toml"},
+                                                      {"models"},
+                                                      {"methods"},
+                                                      {"--help"},
+                                                      {"run", "--help"},
+                                                      {"--version"},
+                                                      {"new", "--help"},
+                                                      {"linearize", "--help"}};
+    for (const std::vector<std::string>& line : lines) {
+        const Outcome outcome = call(line, unread);
+        CHECK(outcome.code == 0);
+        CHECK(outcome.err == call(line).err);
+    }
+    CHECK(call({"check", "refuted.toml"}, unread).code == 1);
+    const Outcome rows = call(short_run, unread);
+    CHECK(rows.code == 0);
+    CHECK(rows.err.find("error:") == std::string::npos);
+    const Outcome file = call({"derive", "kepler.toml", "-o", "/dev/stdout"}, unread);
+    CHECK(file.code == 0);
+    CHECK(file.err.empty());
     ::close(ends[1]);
-    CHECK(outcome.code == 5);
-    CHECK(outcome.err == "error: cannot write to standard output: Broken pipe\n");
 }
 
 TEST_CASE("--plot without gnuplot is said before the run")
@@ -267,26 +374,45 @@ TEST_CASE("--plot without gnuplot is said before the run")
     CHECK(names_in(folder).empty());
 }
 
-TEST_CASE("an interrupt in mid-run exits 130 with one line, no file and no process left")
+TEST_CASE("an interrupt in mid-run exits 130 and leaves the rows so far, and no process", "[run]")
 {
-    REQUIRE(call(short_run).code == 0); // compiled already
-    const std::string folder = fresh_folder();
+    REQUIRE(call(short_run).code == 0);    // compiled already
     const std::string mark = "2718281828"; // the end of this run, to be found among the processes
-    for (const int signal : {SIGINT, SIGTERM}) {
-        const Started started = start_call({"run", models_folder() + "/oscillator.toml", "--t-end", mark, "--at", "0",
-                                            "-o", "rows.csv", "--tolerance", "1e-14"},
-                                           {.folder = folder});
+    const auto interrupted = [&](const std::vector<std::string>& options, int signal, const std::string& folder) {
+        std::vector<std::string> arguments{
+            "run", models_folder() + "/oscillator.toml", "--t-end", mark, "--at", "0,1", "--tolerance", "1e-14"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const Started started = start_call(arguments, {.folder = folder});
         for (int k = 0; k < 300 && !alive(std::string("--end") + '\0' + mark); ++k)
             std::this_thread::sleep_for(std::chrono::milliseconds(20));
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
         REQUIRE(::kill(started.process, signal) == 0);
         const Outcome outcome = finish(started);
         CHECK(outcome.code == 130);
-        CHECK(outcome.out.empty());
-        CHECK(outcome.err == "lagen: interrupted, nothing was written\n");
-        CHECK(names_in(folder).empty());
         CHECK_FALSE(alive(mark));
+        return outcome;
+    };
+    const auto said = [](const std::string& place) {
+        return Catch::Matches("lagen: interrupted at t = [0-9.e+]+; the 2 rows so far are " + place + "\n");
+    };
+    for (const int signal : {SIGINT, SIGTERM}) {
+        const std::string folder = fresh_folder();
+        write_text(folder + "/rows.csv", "earlier");
+        const Outcome outcome = interrupted({"-o", "rows.csv"}, signal, folder);
+        CHECK(outcome.out.empty());
+        CHECK_THAT(outcome.err, said("in 'rows\\.csv\\.partial'"));
+        CHECK(read_text(folder + "/rows.csv") == "earlier");
+        CHECK_THAT(read_text(folder + "/rows.csv.partial"), Catch::StartsWith("t,x,v\r\n0,1,0\r\n1,0.5403"));
+        CHECK(names_in(folder).size() == 2);
     }
+    const Outcome rows = interrupted({}, SIGINT, fresh_folder());
+    CHECK_THAT(rows.err, said("on standard output"));
+    CHECK_THAT(rows.out, Catch::StartsWith("t,x,v\r\n0,1,0\r\n1,0.5403"));
+    const Outcome closed = interrupted({"--format", "json"}, SIGINT, fresh_folder());
+    const lagen::json::Value report = lagen::json::parse(closed.out);
+    CHECK(report["status"].text == "interrupted");
+    CHECK(report["rows"].entries.size() == 2);
+    CHECK(report["t"].number() > 1);
 }
 
 TEST_CASE("an interrupt while compiling stops the compiler and its children")
@@ -302,4 +428,38 @@ TEST_CASE("an interrupt while compiling stops the compiler and its children")
     CHECK(outcome.err == "lagen: interrupted while compiling\n");
     CHECK(names_in(cache).empty());
     CHECK_FALSE(alive("31.4159"));
+}
+
+namespace {
+
+/// What reaches standard error, a terminal or a pipe, while a activity lasts for so many milliseconds.
+std::string told_in(int milliseconds, bool terminal)
+{
+    int ends[2] = {-1, -1};
+    REQUIRE((terminal ? ::openpty(&ends[0], &ends[1], nullptr, nullptr, nullptr) : ::pipe(ends)) == 0);
+    const int before = ::dup(STDERR_FILENO);
+    ::dup2(ends[1], STDERR_FILENO);
+    {
+        const lagen::ActivityWatch watch;
+        lagen::Activity activity("deciding top", 7);
+        activity.next();
+        std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+    }
+    ::dup2(before, STDERR_FILENO);
+    ::fcntl(ends[0], F_SETFL, O_NONBLOCK);
+    std::string text(4096, ' ');
+    const ssize_t count = ::read(ends[0], text.data(), text.size());
+    for (const int file : {before, ends[0], ends[1]}) ::close(file);
+    return text.substr(0, count < 0 ? 0 : static_cast<std::size_t>(count));
+}
+
+} // namespace
+
+TEST_CASE("what lasts longer than two seconds is told on a terminal alone, and wiped where it ends")
+{
+    const std::string told = told_in(2600, true);
+    CHECK(told.find("2 s  deciding top, 1 of 7") != std::string::npos);
+    CHECK(told.ends_with(" \r"));
+    CHECK(told_in(500, true).empty());
+    CHECK(told_in(2600, false).empty());
 }

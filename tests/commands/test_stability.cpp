@@ -174,7 +174,7 @@ TEST_CASE("a discrete body is bounded up to h Omega = 1, where its momenta reach
     }
 }
 
-TEST_CASE("variational methods stand beside others, and a scheme blows up in its window of unstable steps", "[chart]")
+TEST_CASE("variational methods stand beside others, and a scheme blows up in its window of unstable steps", "[all]")
 {
     const std::string folder = fresh_folder(), spring = R"([base]
 coordinates = ["x"]

@@ -74,6 +74,15 @@ if(NOT first MATCHES "^top energy [0-9.]+ status ok$")
   message(FATAL_ERROR "consumer: the app printed \"${first}\"")
 endif()
 
+# Another model of the same stem would make the same header.
+file(MAKE_DIRECTORY "${work}/project/other")
+file(COPY_FILE "${work}/project/heavy_top.toml" "${work}/project/other/heavy_top.toml")
+execute_process(COMMAND ${CMAKE_COMMAND} -S "${work}/project" -B "${work}/same" ${common} -D CMAKE_PREFIX_PATH=${work}/prefix -D SAME=ON
+  RESULT_VARIABLE result ERROR_VARIABLE errors OUTPUT_QUIET)
+if(result EQUAL 0 OR NOT errors MATCHES "rename one of[ \n]+the two models")
+  message(FATAL_ERROR "consumer: two models of one stem were not refused: ${result}\n${errors}")
+endif()
+
 # Nothing to do the second time; a touched model makes the header again.
 must(${CMAKE_COMMAND} --build "${work}/found")
 if(NOT output MATCHES "no work to do")

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// UTF-8 and the search for the name that was meant.
+#include "activity.hpp"
 #include "diagnostic.hpp"
 
 #include <catch2/catch.hpp>
@@ -57,4 +58,26 @@ TEST_CASE("a name that shares nothing is not proposed")
     CHECK(nearest("ab", {"cd"}).empty());
     CHECK(nearest("anything", {}).empty());
     CHECK(nearest(std::string(100000, 'a'), {std::string(100000, 'b')}).empty());
+}
+
+TEST_CASE("the name that was refused is never proposed")
+{
+    CHECK(nearest("x", {"x"}).empty());
+    CHECK(nearest("mass", {"mass", "m"}).empty());
+    CHECK(nearest("mass", {"mass", "masses"}) == "masses");
+    CHECK(nearest("mas", {"mas", "mass"}) == "mass");
+}
+
+TEST_CASE("stages that last are told from the outside in, with what is done of each")
+{
+    CHECK(lagen::activities_text().empty());
+    {
+        const lagen::Activity whole("deciding top");
+        lagen::Activity part("equations", 3);
+        CHECK(lagen::activities_text() == "deciding top: equations");
+        part.next();
+        part.next();
+        CHECK(lagen::activities_text() == "deciding top: equations, 2 of 3");
+    }
+    CHECK(lagen::activities_text().empty());
 }

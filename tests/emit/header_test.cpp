@@ -4,6 +4,8 @@
 #include "../support/golden.hpp"
 #include "hand_built.hpp"
 
+#include <cstdio>
+
 using namespace lagen;
 using namespace lagen::testing;
 
@@ -140,6 +142,34 @@ TEST_CASE("names that C++ cannot bear are altered and stay distinct", "[emit]")
     CHECK(cpp_names({"θ", "theta", "x[1]", "x_1"}) == std::vector<std::string>{"theta_", "theta", "x_1_", "x_1"});
     CHECK(cpp_names({"class", "class_", "class_1_"}) == std::vector<std::string>{"class_1_1_", "class_", "class_1_"});
     CHECK(cpp_names({"_a", "a__b", ""}) == std::vector<std::string>{"n_a", "a_b", "n"});
+}
+
+TEST_CASE("a name that is a macro behind a header, or in the headers of C and POSIX, is altered", "[emit]")
+{
+    CHECK(cpp_names({"PATH_MAX", "BUFSIZ", "CLOCKS_PER_SEC", "B0", "M_PIl", "EIGEN_ARCH_i386", "SYS_read", "si_pid"}) ==
+          std::vector<std::string>{"PATH_MAX_", "BUFSIZ_", "CLOCKS_PER_SEC_", "B0_", "M_PIl_", "EIGEN_ARCH_i386_",
+                                   "SYS_read_", "si_pid_"});
+    const std::vector<std::string> physical{"B",    "B1",  "E0",     "EKIN", "SIGMA", "OMEGA",
+                                            "I_ZZ", "K_T", "M_CART", "S_I1", "PRI"};
+    CHECK(cpp_names(physical) == physical);
+
+    const std::string text = "#include <Eigen/Core>\n#include <thread>\n#include <complex.h>\n#include <fenv.h>\n"
+                             "#include <inttypes.h>\n#include <signal.h>\n#include <termios.h>\n#include <unistd.h>\n"
+                             "#include <sys/ioctl.h>\n#include <sys/stat.h>\n#include <fcntl.h>\n#include <vector>\n";
+    const std::string command = "printf '" + text + "' | c++ -std=gnu++20 -I/usr/include/eigen3 -dM -E -x c++ -";
+    FILE* const compiler = ::popen(command.c_str(), "r");
+    REQUIRE(compiler != nullptr);
+    int count = 0;
+    for (char line[4096]; std::fgets(line, sizeof line, compiler) != nullptr;) {
+        const std::string name = std::string(line).substr(8, std::string(line).find(' ', 8) - 8);
+        if (name.front() == '_' || name.find('(') != std::string::npos || name.find('\n') != std::string::npos)
+            continue;
+        ++count;
+        INFO(name);
+        CHECK(cpp_names({name}) != std::vector<std::string>{name});
+    }
+    CHECK(::pclose(compiler) == 0);
+    CHECK(count > 1000);
 }
 
 TEST_CASE("shared terms avoid the names of the model", "[emit]")

@@ -89,3 +89,28 @@ TEST_CASE("a model without a discrete Lagrangian that is written out has no disc
     CHECK_THROWS_WITH(derive("discrete", model, elaborate(model), Report{}),
                       Catch::Contains("the model has no [discrete]"));
 }
+
+TEST_CASE("entries of a matrix that are the same on the whole group are not printed")
+{
+    const Derived rover(R"toml(
+[parameters]
+m = 1
+J = 2
+[base]
+coordinates = ["p[1..2]"]
+[fibre]
+coordinates = ["w", "u", "v"]
+[groupoid]
+kind = "action"
+group = "SE(2)"
+action = { p = "[W[1,1]*(p[1]-W[1,3]) + W[2,1]*(p[2]-W[2,3]), W[1,2]*(p[1]-W[1,3]) + W[2,2]*(p[2]-W[2,3])]" }
+[discrete]
+step = "h"
+L = "m*(W[1,3]^2+W[2,3]^2)/(2*h) + J*(1-W[1,1])/h - h*(p[1]^2+p[2]^2)/2"
+)toml");
+    const std::string text = print_text(rover.equations);
+    INFO(text);
+    for (const char* constant : {"W[3,1]", "W[3,2]", "W[3,3]", "W_next[3,1]", "W_next[3,2]", "W_next[3,3]"})
+        CHECK(text.find(constant) == std::string::npos);
+    for (const char* moving : {"W[1,3]", "W[2,1]", "W_next[1,3]"}) CHECK(text.find(moving) != std::string::npos);
+}

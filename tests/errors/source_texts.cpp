@@ -129,7 +129,13 @@ class Reader {
     std::vector<SourceText> found_;
 };
 
-/// `format` cut at each {..}; {{ and }} are braces.
+} // namespace
+
+std::vector<SourceText> string_literals(const std::string& source)
+{
+    return Reader(source).read();
+}
+
 std::vector<std::string> fixed_parts(const std::string& format)
 {
     std::vector<std::string> parts(1);
@@ -148,17 +154,10 @@ std::vector<std::string> fixed_parts(const std::string& format)
     return parts;
 }
 
-} // namespace
-
-std::vector<SourceText> string_literals(const std::string& source)
-{
-    return Reader(source).read();
-}
-
-bool is_made_from(const std::string& example, const std::string& format)
+bool is_made_from(const std::string& example, const std::vector<std::string>& parts)
 {
     std::size_t at = 0;
-    for (const std::string& part : fixed_parts(format)) {
+    for (const std::string& part : parts) {
         at = example.find(part, at);
         if (at == std::string::npos) return false;
         at += part.size();

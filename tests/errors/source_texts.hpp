@@ -16,9 +16,12 @@ struct SourceText {
 /// The literals of `source` in order, those of comments and preprocessor lines left out.
 [[nodiscard]] std::vector<SourceText> string_literals(const std::string& source);
 
-/// Could fmt::format (or a sum of strings) have made a passage of `example` from `format`? The parts between {..} must
-/// stand in `example` in their order.
-[[nodiscard]] bool is_made_from(const std::string& example, const std::string& format);
+/// `format` cut at each {..}; {{ and }} are braces.
+[[nodiscard]] std::vector<std::string> fixed_parts(const std::string& format);
+
+/// Could fmt::format (or a sum of strings) have made a passage of `example` from a format with these fixed parts? They
+/// must stand in `example` in their order.
+[[nodiscard]] bool is_made_from(const std::string& example, const std::vector<std::string>& parts);
 
 /// Words of two letters and more outside of {..}.
 [[nodiscard]] std::size_t word_count(const std::string& format);

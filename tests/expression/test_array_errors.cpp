@@ -41,7 +41,7 @@ TEST_CASE("an entry of a matrix has its two indices in one pair of brackets")
     CHECK(error_of("W[1,2,3]") == "e:1:1: error: an entry has one or two indices, and 3 are given\n"
                                   "  W[1,2,3]\n"
                                   "  ^~~~~~~~\n"
-                                  "hint: a vector's entry is written x[1], a matrix's W[1,2]");
+                                  "hint: a vector's entry is written x[1], a matrix's W[1,2], its second row W[2,:]");
 }
 
 TEST_CASE("sum and product take an index, two bounds and a body")
@@ -94,7 +94,7 @@ TEST_CASE("an index is an integer constant within the range of its family")
     CHECK(closed_text(scope, "M[1]") == "e:1:1: error: 'M' is a 2 x 2 matrix and takes two indices, and one is given\n"
                                         "  M[1]\n"
                                         "  ^~~~\n"
-                                        "hint: its first entry is written with [1,1]");
+                                        "hint: its first entry is written with [1,1], its first row with [1,:]");
     CHECK(closing_error(scope, "x[1, 2]") == "'x' is a vector of 4 and takes one index, and two are given");
     CHECK(closing_error(scope, "y[1]") == "unknown symbol 'y'");
 }

@@ -1,31 +1,47 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Bytes as a model file: read; where it reads, its scenes are evaluated, it is verified and its equations are derived.
-/// A model with many sections or large expressions is read only: deciding it may take its time.
-#include "elaborate/make_frame.hpp"
+/// A model with many sections or large expressions is read only: deciding it may take its time. So is every model where
+/// LAGEN_FUZZ_READS is defined, which needs no more rooms than those that read.
 #include "fuzz/harness.hpp"
-#include "fuzz/small_budget.hpp"
 #include "model/read_model.hpp"
-#include "model/scene_form.hpp"
 #include "scene/evaluate_scene.hpp"
+
+#ifndef LAGEN_FUZZ_READS
+#include "elaborate/make_frame.hpp"
+#include "fuzz/small_budget.hpp"
+#include "model/scene_form.hpp"
 #include "support/model_equations.hpp"
 #include "support/stages.hpp"
+#endif
 
 using namespace lagen;
 using fuzz::accepted;
-using fuzz::small_budget;
 
 namespace {
-
-constexpr std::size_t largest_rank = 4;
-constexpr std::size_t largest_base = 6;
-constexpr std::size_t longest_text = 1000;    ///< of all expressions of the model together
-constexpr std::size_t longest_mechanics = 60; ///< of what is differentiated and simplified
 
 /// Models name other files; those of the machine are none of a fuzzer's business.
 bool names_other_files(const std::string& text)
 {
     return text.find(".toml") != std::string::npos || text.find('/' + std::string("dev")) != std::string::npos;
 }
+
+#ifdef LAGEN_FUZZ_READS
+
+Choosers choosers()
+{
+    return {};
+}
+
+void decide(const Model&) {}
+
+#else
+
+using fuzz::small_budget;
+
+constexpr std::size_t largest_rank = 4;
+constexpr std::size_t largest_base = 6;
+constexpr std::size_t longest_text = 1000;    ///< of all expressions of the model together
+constexpr std::size_t longest_mechanics = 60; ///< of what is differentiated and simplified
 
 std::size_t written(const AlgebroidBlock& block)
 {
@@ -62,6 +78,17 @@ bool is_small(const Model& model)
            length <= longest_text;
 }
 
+void decide(const Model& model)
+{
+    if (!is_small(model)) return;
+    const ModelReport verified = verify(model, {}, 2, small_budget);
+    for (const Check& check : verified.structure.checks) require_confirmed(check);
+    if (written_mechanics(model) > longest_mechanics) return;
+    for (const std::string& form : form_names()) accepted([&] { static_cast<void>(derive(form, model, verified)); });
+}
+
+#endif
+
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
@@ -71,12 +98,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     accepted([&] {
         const Model model = read_model_text("fuzz.toml", text, {}, choosers());
         for (const Scene& scene : model.scenes) accepted([&] { static_cast<void>(evaluate_scene(model, scene)); });
-        if (!is_small(model)) return;
-        const ModelReport verified = verify(model, {}, 2, small_budget);
-        for (const Check& check : verified.structure.checks) require_confirmed(check);
-        if (written_mechanics(model) > longest_mechanics) return;
-        for (const std::string& form : form_names())
-            accepted([&] { static_cast<void>(derive(form, model, verified)); });
+        decide(model);
     });
     return 0;
 }

@@ -75,7 +75,7 @@ std::string room_of(const std::string& path)
     if (names.size() > 2) return names[1];
     const std::string stem = parts.stem().string();
     if (stem == "lagen") return "commands";
-    return stem == "content_hash" ? "diagnostic" : stem;
+    return stem == "content_hash" || stem == "activity" ? "diagnostic" : stem;
 }
 
 const Arrows& planned_arrows()

@@ -21,7 +21,7 @@ TEST_CASE("an oscillator has its natural frequency and its damping")
     A << 0, 1, -4, -0.4; // omega = 2, 2 zeta omega = 0.4
     B << 0, 1;
     const double wd = 2 * std::sqrt(1 - 0.01);
-    const std::vector<Mode> modes = modes_of(with_input(A, B), {{-0.2, -wd}, {-0.2, wd}});
+    const std::vector<Mode> modes = modes_of(with_input(A, B), {{{-0.2, -wd}}, {{-0.2, wd}}});
     REQUIRE(modes.size() == 2);
     for (const Mode& mode : modes) {
         CHECK(mode.frequency() == Approx(2).epsilon(1e-15));
@@ -38,16 +38,30 @@ TEST_CASE("an oscillator has its natural frequency and its damping")
 TEST_CASE("equal eigenvalues are one mode with all of its eigenvectors")
 {
     const std::vector<Mode> chain =
-        modes_of(with_input((Matrix(2, 2) << 0, 1, 0, 0).finished(), Matrix::Zero(2, 1)), {0, 0});
+        modes_of(with_input((Matrix(2, 2) << 0, 1, 0, 0).finished(), Matrix::Zero(2, 1)), {{0, 2}});
     REQUIRE(chain.size() == 1);
     CHECK(chain[0].multiplicity == 2);
     REQUIRE(chain[0].eigenvectors.size() == 1);
     CHECK(chain[0].eigenvectors[0] == Eigen::Vector2cd(1, 0));
     CHECK_FALSE(chain[0].reached);
-    const std::vector<Mode> apart = modes_of(with_input(-Matrix::Identity(2, 2), Matrix::Ones(2, 1)), {-1, -1});
+    const std::vector<Mode> apart = modes_of(with_input(-Matrix::Identity(2, 2), Matrix::Ones(2, 1)), {{-1, 2}});
     REQUIRE(apart.size() == 1);
     CHECK(apart[0].eigenvectors.size() == 2);
     CHECK_FALSE(apart[0].reached); // one input for two equal modes
+}
+
+TEST_CASE("a slow mode beside one that is a million million times faster has the eigenvector of its own")
+{
+    Matrix A =
+        Matrix::Zero(4, 4); // two oscillators that damping overcomes, x, v, q, w; the slow one pulls the fast one
+    A << 0, 1, 0, 0, -1e12, -2e12, 1e3, 0, 0, 0, 0, 1, 0, 0, -1e-3, -0.1;
+    const double slow = -0.05 + std::sqrt(0.0025 - 1e-3);
+    const std::vector<Mode> modes = modes_of(with_input(A, Matrix::Zero(4, 1)), {{slow}});
+    REQUIRE(modes[0].eigenvectors.size() == 1);
+    const Eigen::VectorXcd& v = modes[0].eigenvectors[0];
+    CHECK(std::abs(v[2] - 1.0) < 1e-15);
+    CHECK(std::abs(v[3] - slow) < 1e-12);
+    CHECK(std::abs(v[0] - 1e-9) < 1e-12); // 1e12 x = 1e3 q, but for slow (2e12 x)
 }
 
 TEST_CASE("two equal oscillators that one force pushes alike are not reached in their difference")

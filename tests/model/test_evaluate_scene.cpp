@@ -3,9 +3,13 @@
 #include "model/read_model.hpp"
 #include "scene/evaluate_scene.hpp"
 #include "scene/project_start.hpp"
+#include "scene/read_input_table.hpp"
 
 #include <catch2/catch.hpp>
+
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 
 using lagen::evaluate_scene;
@@ -70,10 +74,53 @@ TEST_CASE("project = true moves the start to the nearest point of the constraint
     CHECK(std::fabs(found.base[1].second - 0.8L) <= 4 * epsilon);
 }
 
+TEST_CASE("a start that is moved onto the constraints stays on the level of a declared Casimir")
+{
+    const Model model = read_model_text("bowl.toml", R"(
+[base]
+coordinates = ["x", "y", "z"]
+constraints = ["z - x^2 - y^2"]
+casimirs = { height = "z^3" }
+[fibre]
+coordinates = ["w"]
+[algebroid.anchor]
+w = { x = "-y", y = "x" }
+[scene.default]
+initial = { x = 3, y = 4, z = 1, w = 1 }
+project = true
+)");
+    const SceneValues found = evaluate_scene(model, model.scenes[0]);
+    CHECK(std::fabs(found.base[0].second - 0.6L) <= 4 * epsilon);
+    CHECK(std::fabs(found.base[1].second - 0.8L) <= 4 * epsilon);
+    CHECK(std::fabs(found.base[2].second - 1) <= 4 * epsilon);
+}
+
 TEST_CASE("a start within 1e-10 of the constraints is left as it is")
 {
     const SceneValues found = values("initial = { x = 0.6, y = 0.80000000001, w = 1 }\n");
     CHECK(found.base[1].second == 0.80000000001L);
     CHECK_THROWS_WITH(values("initial = { x = 0.6, y = 0.800000001, w = 1 }\n"),
                       Catch::Contains("misses the constraint"));
+}
+
+TEST_CASE("a column u_1 of a table of inputs is the input u_1, and u[1] only where nothing else is called so")
+{
+    const std::string path = (std::filesystem::temp_directory_path() / "lagen_names_of_inputs.csv").string();
+    const auto rows = [&](const std::string& inputs, const std::string& heading) {
+        std::ofstream(path) << "t," << heading << "\n0,5\n";
+        const Model model = read_model_text(
+            "cart.toml", inputs +
+                             "\n[base]\ncoordinates = [\"x\"]\n[fibre]\ncoordinates = [\"v\"]\n[algebroid]\n"
+                             "kind = \"tangent\"\n[lagrangian]\nL = \"v^2/2\"\n[scene.default]\n"
+                             "initial = { x = 0, v = 0 }\nduration = 1\ninputs = \"" +
+                             path + "\"\n");
+        return lagen::read_input_table(model, model.scenes[0], evaluate_scene(model, model.scenes[0]), 1.0L);
+    };
+    const std::string both = "[inputs]\n\"u[1..2]\" = [0, 0]\nu_1 = 0\n", family = "[inputs]\n\"u[1..2]\" = [0, 0]\n";
+    using Rows = std::vector<std::vector<double>>;
+    CHECK(rows(both, "u_1") == Rows{{0, 0, 0, 5}});
+    CHECK(rows(both, "u_1_2") == Rows{{0, 5, 0, 0}});
+    CHECK(rows(family, "u_1") == Rows{{0, 5, 0}});
+    CHECK_THROWS_AS(rows("[parameters]\nu_1 = 3\n" + family, "u_1"), lagen::ModelError);
+    std::filesystem::remove(path);
 }

@@ -2,6 +2,7 @@
 /// Sizes and families: one key declares, fills or observes many symbols, and the record holds them one by one.
 #include "expression/parse.hpp"
 #include "model/families.hpp"
+#include "model/plain_names.hpp"
 #include "model/read_model.hpp"
 #include "scene/evaluate_scene.hpp"
 
@@ -259,4 +260,26 @@ TEST_CASE("a family of 4096 parameters is read in a moment, and 200 scenes that 
     const Model model = read_model_text("m.toml", text);
     REQUIRE(model.scenes.size() == static_cast<std::size_t>(scenes));
     CHECK(lagen::evaluate_scene(model, model.scenes[scenes - 1]).parameters[4095].second == scenes - 1);
+}
+
+TEST_CASE("a name that is a word keeps it in files, whatever stands before it, and others get numbers", "[families]")
+{
+    using Texts = std::vector<std::string>;
+    CHECK(lagen::plain_names({"x[1]", "W[1,2]", "a b", "2", "θ", "x_1", "momentum_", "x[1]"}) ==
+          Texts{"x_1_2", "W_1_2", "a_b", "_2", "θ", "x_1", "momentum_", "x_1_3"});
+    CHECK(lagen::plain_names({"x[1]"}) == Texts{"x_1"});
+    CHECK(lagen::plain_names({"x[1]"}, {"x[1]", "x[2]", "x_1"}) == Texts{"x_1_2"});
+    CHECK(lagen::plain_names({"W_1[1]", "W[1,1]"}, {"W[1,1]", "W_1[1]"}) == Texts{"W_1_1_2", "W_1_1"});
+    CHECK(lagen::plain_names({"x_1", "x[1]"}, {"x[1]"}) == Texts{"x_1", "x_1_2"});
+}
+
+TEST_CASE("a word in a file means the name itself before any that is written so", "[families]")
+{
+    const std::vector<std::string> inputs{"u[1]", "u[2]", "u_1"}, families{"u[1]", "u[2]"};
+    CHECK(lagen::find_plain(inputs, "u_1", inputs) == 2U);
+    CHECK(lagen::find_plain(inputs, "u[1]", inputs) == 0U);
+    CHECK(lagen::find_plain(inputs, "u_1_2", inputs) == 0U);
+    CHECK(lagen::find_plain(families, "u_1", families) == 0U);
+    CHECK_FALSE(lagen::find_plain(families, "u_1", inputs)); // a parameter u_1, say
+    CHECK_FALSE(lagen::find_plain(families, "u_3", families));
 }

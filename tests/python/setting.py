@@ -12,7 +12,7 @@ import lagen
 _cache = tempfile.TemporaryDirectory()
 atexit.register(_cache.cleanup)
 os.environ.setdefault("LAGEN_CACHE", _cache.name)
-os.environ.setdefault("CXXFLAGS", "-O1")
+os.environ.setdefault("CXXFLAGS", "-O0")
 
 source = pathlib.Path(os.environ["LAGEN_SOURCE"])
 binary = pathlib.Path(os.environ["LAGEN_BINARY"])

@@ -66,9 +66,12 @@ int main()
 
 class Modules(unittest.TestCase):
     def test_every_model_is_a_module_in_each_of_its_forms(self):
+        """Where not all tests run, in one form after the other."""
         count, refused = 0, []
+        paths = sorted(models.glob("*.toml"))
+        asked = list(itertools.product(paths, FORMS)) if all_tests else list(zip(paths, itertools.cycle(("lagrange", "hamilton"))))
         with tempfile.TemporaryDirectory() as folder:
-            for path, form in itertools.product(sorted(models.glob("*.toml")), FORMS):
+            for path, form in asked:
                 with self.subTest(model=path.stem, form=form):
                     try:
                         text = derive(path, form=form)
@@ -84,8 +87,9 @@ class Modules(unittest.TestCase):
                         output_of(sys.executable, file)
                     self.assertNotRegex(text, r"[^\w.\"][0-9]+\.[0-9]")
                     count += 1
-        self.assertGreater(count, 95)
-        self.assertEqual(refused, [("chain", "hamilton"), ("relativistic_oscillator", "hamilton")])
+        self.assertGreater(count, 95 if all_tests else 35)
+        known = [("chain", "hamilton"), ("relativistic_oscillator", "hamilton")]
+        self.assertEqual(refused, [pair for pair in known if (models / f"{pair[0]}.toml", pair[1]) in asked])
 
     def test_a_module_has_the_same_bytes_in_fresh_processes(self):
         for name in ("heavy_top_euler", "four_bar", "snakeboard"):

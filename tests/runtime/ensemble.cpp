@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// lagen::ensemble: many trajectories by several threads, in order.
 #include "lagen/ensemble.hpp"
+#include "cart_pole.hpp"
+#include "heavy_top.hpp"
+#include "heisenberg.hpp"
+#include "lagen/lagen.hpp"
 #include "runtime/pendulum.hpp"
 
 #include <catch2/catch.hpp>
@@ -28,6 +32,33 @@ struct Decay {
     }
 };
 
+/// x' = u - x, with an input and, as headers without parameters have them, no parameters.
+template <class S>
+struct Pushed {
+    using Scalar = S;
+    using State = Eigen::Matrix<S, 1, 1>;
+    static constexpr int dimension = 1;
+    static constexpr bool takes_packs = true;
+    static constexpr std::array<const char*, 1> input_names{"u"};
+    struct Parameters {
+    } parameters;
+    struct Inputs {
+        S u = S(0);
+    } inputs;
+
+    S& input(std::size_t) noexcept { return inputs.u; }
+    status_t<S> rhs(S, const State& s, State& ds) const noexcept
+    {
+        ds[0] = inputs.u - s[0];
+        return StatusOf<S>::good();
+    }
+};
+
+static_assert(detail::GoesAbreast<Pushed<double>, Rk4>);
+static_assert(detail::GoesAbreast<models::heavy_top<double>, Dop853>);
+static_assert(detail::GoesAbreast<models::heisenberg<double>, Dop853>, "without parameters");
+static_assert(detail::GoesAbreast<models::cart_pole<float>, Rk4>, "with inputs");
+
 State start_of(std::size_t k)
 {
     return State(0.01 * static_cast<double>(k), 1);
@@ -48,6 +79,22 @@ std::vector<State> ends(std::size_t count, const EnsembleOptions<Pendulum>& opti
 }
 
 } // namespace
+
+TEST_CASE("Trajectories of a model without parameters go abreast, each with inputs of its own")
+{
+    const auto start = [](std::size_t k, Pushed<double>& each) {
+        each.inputs.u = 0.1 * static_cast<double>(k);
+        return Pushed<double>::State(1);
+    };
+    ensemble(Pushed<double>{}, 9, start, {0.0, 2.0}, Rk4{.step = 0.01},
+             [&](std::size_t k, const Run<Pushed<double>>& run) {
+                 Pushed<double> alone;
+                 const auto s = start(k, alone);
+                 CHECK(run.state[0] == integrate(alone, s, {0.0, 2.0}, Rk4{.step = 0.01}).state[0]);
+                 CHECK(std::abs(run.state[0] - (alone.inputs.u + (1 - alone.inputs.u) * std::exp(-2.0))) < 1e-9);
+             },
+             {.threads = 1});
+}
 
 TEST_CASE("An ensemble is handed over in order, with the bits of single runs, by any number of threads")
 {

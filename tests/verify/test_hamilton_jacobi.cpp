@@ -152,3 +152,25 @@ TEST_CASE("the action along lifted curves is the integral of alpha, of an L that
     CHECK(action_of(free + "[hamiltonian]\nH = \"(p_u^2 + (p_v - x)^2)/2 + y^3\"\n") == "absent");
     CHECK(action_of(free + L + "[hamiltonian]\nH = \"(p_u^2 + (p_v - x)^2)/2 + y^3 + 1\"\n") == fails);
 }
+
+TEST_CASE("a refuted candidate has a residual without powers of roots below the line")
+{
+    const Report refuted = verified_text(R"toml(
+[parameters]
+k = 1
+[base]
+coordinates = ["xi", "eta"]
+domain = ["xi > 0", "eta > 0"]
+[fibre]
+coordinates = ["u", "v"]
+[algebroid]
+kind = "tangent"
+[lagrangian]
+L = "(xi + eta)*(u^2/xi + v^2/eta)/8 + 2*k/(xi + eta)"
+[hamilton_jacobi]
+S = "2*sqrt(k*xi) + 2*sqrt(k*eta)"
+)toml");
+    const Check& check = refuted.structure.checks.back();
+    REQUIRE(check.decision.status == ProofStatus::refuted);
+    CHECK(check.decision.residual == "-2*k/(xi + eta)^2");
+}

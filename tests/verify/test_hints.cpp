@@ -148,3 +148,19 @@ TEST_CASE("a bracket that must be constant is not asked to depend on the base")
           Hints{"all equations of the algebroid hold with the anchor of a without its component x, or with the anchor "
                 "of b without its component y"});
 }
+
+TEST_CASE("where one product of a matrix with its transpose is refuted the other one is named")
+{
+    const auto turned = [](const char* claim, const char* anchor) {
+        return hints_of(std::string("[base]\ncoordinates = [\"R[1..3,1..3]\", \"x\"]\n") + "casimirs = { orth = \"" +
+                        claim +
+                        "\" }\n[fibre]\ncoordinates = [\"w[1..3]\"]\n[algebroid]\nkind = \"action\"\nalgebra = "
+                        "\"so(3)\"\nanchor = { R = \"" +
+                        anchor + "\" }\n");
+    };
+    const std::string kept = " is constant along all motions of the algebroid: rho(e) of each of its entries is 0 for "
+                             "each section e";
+    CHECK(turned("transpose(R)*R", "R*hat(w)") == Hints{"R*transpose(R)" + kept});
+    CHECK(turned("R*transpose(R)", "-hat(w)*R") == Hints{"transpose(R)*R" + kept});
+    CHECK(turned("R*transpose(R)", "R*hat(w)").empty());
+}

@@ -3,13 +3,9 @@
 
 #include "commands/chart/measure.hpp"
 #include "commands/machine/compile_cache.hpp"
-#include "commands/machine/write_file.hpp"
 #include "commands/scene/run_record.hpp"
-#include "diagnostic.hpp"
 
 #include <fmt/core.h>
-
-#include <filesystem>
 
 namespace lagen {
 
@@ -43,18 +39,16 @@ KeptChart kept_chart(const Chart& chart)
 
 std::optional<KeptChart> find_chart(const std::string& file)
 {
-    std::error_code ignored;
-    if (file.empty() || !std::filesystem::is_regular_file(file, ignored)) return std::nullopt;
-    const std::string text = content_of_file(file), heading = chart_heading;
-    if (!text.starts_with(heading)) return std::nullopt;
-    const std::size_t end = text.find('\n', heading.size());
+    const std::optional<std::string> text = kept_text(file);
+    const std::string heading = chart_heading;
+    if (!text || !text->starts_with(heading)) return std::nullopt;
+    const std::size_t end = text->find('\n', heading.size());
     if (end == std::string::npos) return std::nullopt;
-    std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now(), ignored);
-    return KeptChart{read_points(text.substr(end + 1)), text.substr(heading.size(), end - heading.size())};
+    return KeptChart{read_points(text->substr(end + 1)), text->substr(heading.size(), end - heading.size())};
 }
 
 void keep_chart(const std::string& file, const KeptChart& chart)
-try {
+{
     if (file.empty()) return;
     std::string text = chart_heading + chart.obstacle + "\n";
     for (const ChartPoint& point : chart.points) {
@@ -63,10 +57,7 @@ try {
         text += fmt::format("steps={}\nrejected={}\nrhs_calls={}\nseconds={}\n", point.steps, point.rejected,
                             point.rhs_calls, point.seconds);
     }
-    write_file(file, text);
-    trim_cache(std::filesystem::path(file).parent_path().string());
-} catch (const MachineError&) {
-    // The next run charts again.
+    keep_text(file, text);
 }
 
 } // namespace lagen

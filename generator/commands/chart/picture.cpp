@@ -18,6 +18,7 @@ namespace {
 constexpr int chart_width = 1240, row_height = 600;
 constexpr double chart_left = 0.068, chart_right = 0.845, chart_middle = 0.095, row_top = 0.1, row_bottom = 0.1;
 constexpr double label_width = 78, label_height = 11;
+constexpr double label_left = 68; ///< from an axis to the middle of its label, whose letters stay on the page
 
 constexpr double largest_error = 10;       ///< of the picture
 constexpr double failures_at = 30;         ///< times the largest that is shown: where failures are drawn
@@ -83,7 +84,7 @@ struct ChartPanel {
     Measure x, y;                                     ///< x of points with an error
     double largest = largest_error;                   ///< x that is shown
     double worst = 0, least = 0, bottom = 0, top = 0; ///< log10
-    double width = 0;                                 ///< pixels
+    double left = 0, width = 0;                       ///< pixels
 
     [[nodiscard]] double shown(const ChartPoint& point) const
     {
@@ -204,11 +205,12 @@ std::string panel_script(const std::vector<Curve>& curves, const ChartPanel& pan
                             colour_of(curves[k], k));
         }
     }
-    text += fmt::format("unset label\n{}{}set xlabel {}\nset ylabel {}\n{}\nset xrange [{:g}:{:g}]\nset yrange "
-                        "[{:g}:{:g}]\nplot {}",
+    text += fmt::format("unset label\n{}{}set xlabel {}\nset label {} at screen {:.5f}, graph 0.5 center rotate by 90\n"
+                        "{}\nset xrange [{:g}:{:g}]\nset yrange [{:g}:{:g}]\nplot {}",
                         names_script(curves, panel), tics_script(panel), gnuplot_text(panel.x_label),
-                        gnuplot_text(panel.y_label), legend ? "set key" : "unset key", std::pow(10, panel.worst),
-                        std::pow(10, panel.least), std::pow(10, panel.bottom), std::pow(10, panel.top), plots);
+                        gnuplot_text(panel.y_label), (panel.left - label_left) / chart_width,
+                        legend ? "set key" : "unset key", std::pow(10, panel.worst), std::pow(10, panel.least),
+                        std::pow(10, panel.bottom), std::pow(10, panel.top), plots);
     // The key tells leading methods and peers; others bear their names at their ends, where there is room.
     for (std::size_t k = 0; k < curves.size(); ++k)
         if (curves[k].leads || curves[k].peer)
@@ -240,10 +242,11 @@ std::string picture_script(const Chart& chart, const std::vector<std::string>& l
                     chart_right + 0.008, 1 - (row_top - 0.02) * height) +
         "set grid linecolor rgb '#dddddd' linetype 1 linewidth 0.7 dashtype 1\n"
         "set border 3 linecolor rgb '#444444'\nset tics nomirror out scale 0.6\nset logscale xy\n"
-        "set format y '%.0e'\nset ylabel offset -0.3,0\n";
+        "set format y '%.0e'\n";
     for (std::size_t k = 0; k < panels.size(); ++k) {
         const double left = chart_left + static_cast<double>(k % 2) * (width + chart_middle);
         const double top = 1 - static_cast<double>(k / 2) * height;
+        panels[k].left = left * chart_width;
         panels[k].width = width * chart_width;
         script += fmt::format("set lmargin at screen {:.4f}\nset rmargin at screen {:.4f}\nset tmargin at screen "
                               "{:.4f}\nset bmargin at screen {:.4f}\n",

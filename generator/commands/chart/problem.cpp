@@ -107,7 +107,7 @@ std::vector<std::string> answers_of(const std::vector<ChartCall>& calls, std::si
     }
     std::vector<std::string> answers;
     for (ProcessResult& result : run_processes(commands, at_once)) {
-        if (result.interrupted) throw Error(ExitCode::interrupted, "lagen: interrupted, nothing was written");
+        if (result.interrupted) throw InterruptedError("lagen: interrupted, nothing was written");
         if (!result.started || result.exit_code != 0)
             throw MachineError(fmt::format("error: a program of the chart ended with exit code {}\n{}",
                                            result.exit_code, result.error));

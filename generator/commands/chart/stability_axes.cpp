@@ -5,6 +5,7 @@
 #include "commands/scene/range.hpp"
 #include "commands/scene/scene_options.hpp"
 #include "model/families.hpp"
+#include "model/plain_names.hpp"
 
 #include <fmt/core.h>
 
@@ -66,6 +67,9 @@ std::vector<StabilityAxis> stability_axes(const std::string& over, const Model& 
     if (axes[1].values.size() * axes[0].values.size() > most_cells)
         refuse_over(over, fmt::format("the chart has more than {} points", most_cells));
     axes[1].name = name_in_model(read_setting("chart", "over", texts[1]), texts[1], model, scene);
+    const bool starts = axes[1].name.starts_with(initial_prefix);
+    const std::string prefix = starts ? initial_prefix : "";
+    axes[1].heading = prefix + plain_names({axes[1].name.substr(prefix.size())}, all_names(model))[0];
     return axes;
 }
 

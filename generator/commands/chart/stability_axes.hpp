@@ -12,6 +12,7 @@ namespace lagen {
 struct StabilityAxis {
     std::string name; ///< "step", a parameter, or "initial.x"
     std::vector<double> values;
+    std::string heading{}; ///< the name in files
 };
 
 /// One axis or two, the first of steps. Throws UsageError where it is not such a list, ModelError where an end is no

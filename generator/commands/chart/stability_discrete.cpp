@@ -140,7 +140,7 @@ DiscreteContestant variational_contestant(const CheckedModel& checked, const Met
                                           const StabilityChart& chart)
 {
     CheckedModel own = checked;
-    own.model = variational_model(std::move(own.model), method.scheme);
+    own.model = variational_model(std::move(own.model), method.scheme, method.name);
     prove(own);
     Scene steps = scene;
     steps.form.clear();

@@ -108,10 +108,7 @@ std::string stability_csv(const StabilityChart& chart)
 {
     const bool two = chart.axes.size() > 1;
     std::string text = "method,step";
-    if (two)
-        text += "," + (chart.axes[1].name.starts_with("initial.")
-                           ? "initial." + csv_names({chart.axes[1].name.substr(8)})[0]
-                           : csv_names({chart.axes[1].name})[0]);
+    if (two) text += "," + chart.axes[1].heading;
     text += ",outcome,t,error,drift,status";
     for (const ChartedMethod& method : chart.methods)
         for (std::size_t j = 0; j < chart.columns.size(); ++j)

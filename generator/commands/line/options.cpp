@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/line/options.hpp"
 
+#include "commands/machine/write_file.hpp"
 #include "model/families.hpp"
 
 #include <boost/program_options.hpp>
@@ -57,7 +58,8 @@ void print_help(const CommandSyntax& syntax, const po::options_description& desc
     std::ostringstream text;
     text << description;
     const std::string arguments = *syntax.positional == '\0' ? "" : std::string(" ") + syntax.positional;
-    fmt::print("usage: lagen {}{} [options]\n\n{}\n\n{}", syntax.command, arguments, syntax.purpose, text.str());
+    write_standard_output(
+        fmt::format("usage: lagen {}{} [options]\n\n{}\n\n{}", syntax.command, arguments, syntax.purpose, text.str()));
 }
 
 void check_positional(const CommandSyntax& syntax, const std::vector<std::string>& positional)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/linearize/plant.hpp"
 
+#include "algebra/rational_near.hpp"
 #include "commands/scene/start_state.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/evaluate.hpp"
@@ -9,6 +10,7 @@
 #include "kernels/formulation.hpp"
 #include "model/carried_states.hpp"
 #include "model/form.hpp"
+#include "verify/leaf.hpp"
 
 #include <fmt/format.h>
 
@@ -18,6 +20,8 @@
 namespace lagen {
 
 namespace {
+
+constexpr long double level_rounding = 1e-15L; ///< of the level of a function at a start in doubles, relative
 
 void require_rates(const Scene& scene)
 {
@@ -136,12 +140,21 @@ class PlantMaker {
         }
     }
 
+    /// Levels that are a short fraction but for rounding are that.
     void set_leaf()
     {
-        out_.equations.constraints = system_.functions.constraints;
-        for (std::size_t k = 0; k < system_.functions.casimirs.size(); ++k) {
-            const NodeId level = out_.graph.constant(Rational(static_cast<double>(values_.casimirs[k].second)));
-            out_.equations.casimirs.push_back(out_.graph.subtract(system_.functions.casimirs[k], level));
+        const Leaves leaves = leaves_of(out_.graph, system_);
+        out_.equations.constraints = leaves.constraints;
+        out_.equations.base = system_.algebroid.x;
+        out_.equations.fields = leaves.fields;
+        std::map<std::string, long double> start;
+        for (std::size_t k = 0; k < out_.equations.state.size(); ++k)
+            start[out_.graph.input_name(out_.equations.state[k])] = out_.starts.front().state[k];
+        const std::vector<long double> levels = evaluate<long double>(out_.graph, leaves.casimirs, start);
+        for (std::size_t k = 0; k < levels.size(); ++k) {
+            const Rational level =
+                rational_near(levels[k], level_rounding).value_or(Rational(static_cast<double>(levels[k])));
+            out_.equations.casimirs.push_back(out_.graph.subtract(leaves.casimirs[k], out_.graph.constant(level)));
         }
     }
 

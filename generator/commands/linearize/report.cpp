@@ -17,7 +17,8 @@ using linear::Eigenvalue;
 using linear::Matrix;
 using linear::Mode;
 
-constexpr double noticeable = 0.05; ///< entries of a mode that the text shows, of the largest
+constexpr double noticeable = 0.05;        ///< entries of a mode that the text shows, of the largest
+constexpr double noticeable_spread = 1e-7; ///< of eigenvalues that are told as one
 
 double positive_zero(double value)
 {
@@ -90,6 +91,13 @@ std::string shape_text(const Eigen::VectorXcd& shape, const std::vector<std::str
     return text;
 }
 
+/// How often, and how far apart its eigenvalues are, where a reader would see it.
+std::string times_text(const Mode& mode, double size)
+{
+    const bool shows = mode.spread > noticeable_spread * (mode.eigenvalue == 0.0 ? size : mode.frequency());
+    return std::to_string(mode.multiplicity) + (shows ? fmt::format(" within {:.1g}", mode.spread) : "");
+}
+
 /// A pair once, by the one above the real axis.
 std::string modes_text(const LinearReport& report)
 {
@@ -101,7 +109,7 @@ std::string modes_text(const LinearReport& report)
         if (lambda.imag() < 0) continue;
         for (const auto& shape : mode.eigenvectors) {
             const bool first = &shape == &mode.eigenvectors.front(), resting = lambda == 0.0;
-            rows.push_back({first ? eigenvalue_text(lambda) : "", first ? std::to_string(mode.multiplicity) : "",
+            rows.push_back({first ? eigenvalue_text(lambda) : "", first ? times_text(mode, report.system.size()) : "",
                             first ? short_number(mode.frequency()) : "",
                             first && !resting ? short_number(mode.damping()) : ""});
             if (!report.inputs.empty()) rows.back().emplace_back(!first ? "" : mode.reached ? "yes" : "no");
@@ -159,6 +167,10 @@ std::string equilibrium_text(const LinearReport& report)
     add(found.at.state, report.start.state);
     add(found.at.inputs, report.start.inputs);
     text += fmt::format("  {:.6g} from the start\n", std::sqrt(square));
+    if (found.leaf_kept == LeafKept::in_floating_point)
+        text += "  on the leaf of the start in floating point: not all functions that are constant on it were found\n";
+    if (found.leaf_kept == LeafKept::approached)
+        text += "  on a smaller leaf than the start, which motions from there only tend to\n";
     for (const std::string& name : report.following)
         text += fmt::format("  {} follows the motion, and is left out\n", name);
     return text;
@@ -171,6 +183,16 @@ std::string gain_text(const LinearReport& report)
                        "Riccati's equation, relative to its terms: {:.1g}\n",
                        fmt::join(report.inputs, ", "), fmt::join(report.states, ", "), matrix_text(regulator.K),
                        eigenvalues_text(regulator.closed_loop), regulator.residual);
+}
+
+const char* to_text(LeafKept kept)
+{
+    switch (kept) {
+    case LeafKept::by_functions: return "kept";
+    case LeafKept::in_floating_point: return "kept in floating point";
+    case LeafKept::approached: break;
+    }
+    return "approached";
 }
 
 void names_json(JsonWriter& json, const char* key, const std::vector<std::string>& names)
@@ -217,7 +239,7 @@ void modes_json(JsonWriter& json, const LinearReport& report)
     for (const Mode& mode : report.modes) {
         json.begin_object().key("eigenvalue");
         complex_json(json, mode.eigenvalue);
-        json.key("multiplicity").value(mode.multiplicity).key("frequency");
+        json.key("multiplicity").value(mode.multiplicity).key("spread").value(mode.spread).key("frequency");
         number_json(json, mode.frequency());
         json.key("damping");
         if (mode.eigenvalue == 0.0)
@@ -283,10 +305,12 @@ std::string linear_json(const LinearReport& report)
     for (std::size_t k = 0; k < report.inputs.size(); ++k) json.key(report.inputs[k]).value(found.at.inputs[k]);
     json.end_object().key("inputs_moved").value(found.moves_inputs);
     json.key("residual").value(found.residual).key("certified").value(found.certified);
-    json.key("radius").value(found.radius);
+    json.key("radius").value(found.radius).key("leaf").value(to_text(found.leaf_kept));
     matrix_json(json, "A", report.system.A);
     matrix_json(json, "B", report.system.B);
-    eigenvalues_json(json, "eigenvalues", report.eigenvalues);
+    std::vector<Eigenvalue> eigenvalues;
+    for (const Mode& mode : report.modes) eigenvalues.insert(eigenvalues.end(), mode.multiplicity, mode.eigenvalue);
+    eigenvalues_json(json, "eigenvalues", eigenvalues);
     modes_json(json, report);
     const std::vector<Eigenvalue> missed = unreached(report);
     json.key("controllable");

@@ -15,8 +15,7 @@ struct LinearReport {
     MotionPoint start;
     Equilibrium equilibrium;
     linear::LinearSystem system;
-    std::vector<linear::Eigenvalue> eigenvalues; ///< of A, by real, then by imaginary parts
-    std::vector<linear::Mode> modes;
+    std::vector<linear::Mode> modes; ///< of A, by real, then by imaginary parts
     std::optional<linear::Regulator> regulator;
 };
 

@@ -3,6 +3,7 @@
 
 #include "commands/machine/compile_cache.hpp"
 #include "commands/machine/places.hpp"
+#include "commands/machine/precompiled_header.hpp"
 #include "commands/machine/process.hpp"
 #include "commands/machine/temporary_folder.hpp"
 #include "commands/machine/write_file.hpp"
@@ -14,6 +15,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
+#include <sys/utsname.h>
 #include <thread>
 
 namespace lagen {
@@ -96,7 +98,8 @@ void add_headers(ContentHash& hash, const std::string& folder, const char* part)
 {
     std::vector<fs::path> files;
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(fs::path(folder) / part))
-        if (entry.is_regular_file() && entry.path().extension() == ".hpp") files.push_back(entry.path());
+        if (entry.is_regular_file() && (entry.path().extension() == ".hpp" || entry.path().extension() == ".h"))
+            files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     for (const fs::path& file : files)
         hash.add(file.lexically_relative(folder).string()).add(content_of_file(file.string()));
@@ -109,6 +112,8 @@ void add_compiler(ContentHash& hash, const std::vector<std::string>& command)
     hash.add(program.string()).add(std::to_string(fs::file_size(program, ignored)));
     hash.add(std::to_string(fs::last_write_time(program, ignored).time_since_epoch().count()));
     for (const std::string& word : command) hash.add(word);
+    utsname machine{};
+    if (::uname(&machine) == 0) hash.add(machine.machine); // several of them may see the same cache
 }
 
 std::string line_of(const std::vector<std::string>& command)
@@ -120,7 +125,7 @@ std::string line_of(const std::vector<std::string>& command)
 
 void require_success(const std::vector<std::string>& command, const ProcessResult& result)
 {
-    if (result.interrupted) throw Error(ExitCode::interrupted, "lagen: interrupted while compiling");
+    if (result.interrupted) throw InterruptedError("lagen: interrupted while compiling");
     if (!result.started)
         throw MachineError(
             fmt::format("error: the C++ compiler '{}' could not be started: {}", command[0], result.error));
@@ -134,19 +139,40 @@ std::string program_path(const std::string& cache, const ProgramText& text)
 {
     ContentHash hash;
     hash.add(lines_of_code(text.header, "//")).add(text.main); // a new scene or title is no new program
+    hash.add(text.is_model ? "model" : "program");
     for (const std::string& library : text.libraries) hash.add(library);
     for (const std::string& option : text.options) hash.add(option);
     add_compilation(hash);
-    return fmt::format("{}/{}", cache, hash.hex32());
+    return fmt::format("{}/{}{}", cache, hash.hex32(), text.is_model ? ".so" : "");
+}
+
+/// The compiler with all that a text asks for. States of a compiled model begin wherever malloc puts them.
+std::vector<std::string> command_of(const ProgramText& text)
+{
+    std::vector<std::string> options = text.options;
+    if (text.is_model) options.insert(options.end(), {"-fPIC", "-fvisibility=hidden", "-DEIGEN_MAX_ALIGN_BYTES=16"});
+    return compile_command(options);
+}
+
+/// That of the models which are compiled by this command.
+PrecompiledHeader precompiled_header(const std::string& cache, const std::vector<std::string>& command)
+{
+    ContentHash hash;
+    add_headers(hash, runtime_folder(), "lagen");
+    add_compiler(hash, command);
+    return {cache, hash.hex32()};
 }
 
 /// The compiler's command for a program whose files are written into `folder`, which is made.
-std::vector<std::string> command_in(const std::string& folder, const ProgramText& text)
+std::vector<std::string> command_in(const std::string& folder, const ProgramText& text,
+                                    const std::vector<std::string>& further)
 {
     fs::create_directory(folder);
     write_file(folder + "/model.hpp", text.header);
     write_file(folder + "/main.cpp", text.main);
-    std::vector<std::string> command = compile_command(text.options);
+    std::vector<std::string> command = command_of(text);
+    if (text.is_model) command.emplace_back("-shared");
+    command.insert(command.end(), further.begin(), further.end());
     command.insert(command.end(), {folder + "/main.cpp", "-o", folder + "/program"});
     command.insert(command.end(), text.libraries.begin(), text.libraries.end());
     return command;
@@ -161,7 +187,7 @@ bool takes(const std::string& text, const std::vector<std::string>& arguments)
     command.insert(command.end(), {scratch.file("look.cpp"), "-o", scratch.file("look")});
     command.insert(command.end(), arguments.begin(), arguments.end());
     const ProcessResult result = run_process(command);
-    if (result.interrupted) throw Error(ExitCode::interrupted, "lagen: interrupted while compiling");
+    if (result.interrupted) throw InterruptedError("lagen: interrupted while compiling");
     return result.exit_code == 0;
 }
 
@@ -217,16 +243,32 @@ std::vector<std::string> compile_programs(const std::vector<ProgramText>& progra
     if (missing.size() > 1) write_standard_error(fmt::format("compiling {} programs\n", missing.size()));
     const TemporaryFolder scratch(cache, "build");
     std::vector<std::vector<std::string>> commands;
-    for (const std::size_t k : missing) commands.push_back(command_in(scratch.file(std::to_string(k)), programs[k]));
-    const std::vector<ProcessResult> results = run_processes(commands, std::thread::hardware_concurrency());
+    std::vector<PrecompiledHeader> made; // by the commands behind those of the programs
+    std::vector<std::vector<std::string>> making;
+    for (const std::size_t k : missing) {
+        std::vector<std::string> further;
+        if (programs[k].is_model && made.empty()) {
+            const std::vector<std::string> command = command_of(programs[k]);
+            const PrecompiledHeader header = precompiled_header(cache, command);
+            if (header.is_ready()) {
+                further = header.arguments();
+            } else { // beside the first model, which does without it
+                made.push_back(header);
+                making.push_back(command);
+                for (const std::string& argument : header.making(scratch.file(""))) making.back().push_back(argument);
+            }
+        }
+        commands.push_back(command_in(scratch.file(std::to_string(k)), programs[k], further));
+    }
+    std::vector<std::vector<std::string>> all = commands;
+    all.insert(all.end(), making.begin(), making.end());
+    const std::vector<ProcessResult> results = run_processes(all, std::thread::hardware_concurrency());
     for (std::size_t k = 0; k < missing.size(); ++k) {
         require_success(commands[k], results[k]);
-        // Renamed into place whole: two runs at once may both compile, neither sees half a program.
-        const std::string& program = paths[missing[k]];
-        std::error_code error;
-        fs::rename(scratch.file(std::to_string(missing[k])) + "/program", program, error);
-        if (error) throw MachineError(fmt::format("error: cannot write '{}': {}", program, error.message()));
+        keep_program(scratch.file(std::to_string(missing[k])) + "/program", paths[missing[k]]);
     }
+    for (std::size_t k = 0; k < made.size(); ++k)
+        if (results[missing.size() + k].exit_code == 0) made[k].keep(scratch.file(""));
     trim_cache(cache);
     return paths;
 }

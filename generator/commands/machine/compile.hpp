@@ -15,6 +15,7 @@ struct ProgramText {
     std::string header, main;
     std::vector<std::string> libraries = {};
     std::vector<std::string> options = {}; ///< of the compiler, before CXXFLAGS
+    bool is_model = false;                 ///< a compiled model, which is loaded, in place of a program
 };
 
 /// The options with which every sum and product is rounded by itself, whatever vectors a program is compiled for. Where

@@ -2,11 +2,19 @@
 /// Least recently used programs go first; use is remembered in the time of modification.
 #include "commands/machine/compile_cache.hpp"
 
+#include "commands/machine/write_file.hpp"
+#include "content_hash.hpp"
+#include "diagnostic.hpp"
+
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
-#include <string_view>
+#include <fstream>
 #include <unistd.h>
 #include <vector>
 
@@ -26,21 +34,85 @@ struct Program {
     fs::path path;
 };
 
-/// A program, or the record of a run.
+/// A program, the record of a run, or a precompiled header.
 bool is_key(std::string name)
 {
-    if (name.ends_with(".run")) name.resize(name.size() - 4);
+    for (const std::string_view ending : {".run", ".so", ".gch", ".hpp"})
+        if (name.ends_with(ending)) name.resize(name.size() - ending.size());
     return name.size() == 32 && name.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
+/// The last line of a file with this content.
+std::string seal_of(std::string_view content)
+{
+    return fmt::format("\n# whole: {}\n", ContentHash().add(content).hex32());
+}
+
+/// Whether `content` ends with the seal of the rest.
+bool is_sealed(std::string_view content)
+{
+    static const std::size_t length = seal_of("").size();
+    return content.size() > length &&
+           content.substr(content.size() - length) == seal_of(content.substr(0, content.size() - length));
+}
+
+/// The content of a file of the cache, which counts as used just now; nothing where it is not whole.
+std::optional<std::string> sealed_content(const std::string& file)
+try {
+    std::error_code ignored;
+    if (!fs::is_regular_file(file, ignored)) return std::nullopt;
+    std::string content = content_of_file(file);
+    if (!is_sealed(content)) return std::nullopt;
+    fs::last_write_time(file, fs::file_time_type::clock::now(), ignored);
+    return content;
+} catch (const MachineError&) {
+    return std::nullopt; // it cannot be read
+}
+
+/// Makes room for a file of that name: a folder is not replaced by renaming.
+void remove_folder(const std::string& name)
+{
+    std::error_code ignored;
+    if (fs::is_directory(fs::symlink_status(name, ignored))) fs::remove_all(name, ignored);
 }
 
 } // namespace
 
 bool use_cached(const std::string& program)
 {
-    std::error_code ignored;
-    if (!fs::is_regular_file(program, ignored) || ::access(program.c_str(), X_OK) != 0) return false;
-    fs::last_write_time(program, fs::file_time_type::clock::now(), ignored);
-    return true;
+    return ::access(program.c_str(), X_OK) == 0 && sealed_content(program);
+}
+
+std::optional<std::string> kept_text(const std::string& file)
+{
+    std::optional<std::string> content = sealed_content(file);
+    if (content) content->resize(content->size() - seal_of("").size());
+    return content;
+}
+
+void keep_text(const std::string& file, const std::string& text)
+try {
+    remove_folder(file);
+    write_file(file, text + seal_of(text));
+    trim_cache(fs::path(file).parent_path().string());
+} catch (const MachineError&) {
+    // The next one finds nothing, and makes it again.
+}
+
+void keep_program(const std::string& made, const std::string& kept)
+{
+    const auto refuse = [&](const std::string& why) {
+        throw MachineError(fmt::format("error: cannot write '{}': {}", kept, why));
+    };
+    std::error_code error;
+    if (!fs::exists(made, error)) refuse(std::strerror(ENOENT));
+    std::ofstream file(made, std::ios::binary | std::ios::app);
+    file << seal_of(content_of_file(made)) << std::flush;
+    if (!file) refuse(std::strerror(errno));
+    file.close();
+    remove_folder(kept);
+    fs::rename(made, kept, error);
+    if (error) refuse(error.message());
 }
 
 void trim_cache(const std::string& folder)

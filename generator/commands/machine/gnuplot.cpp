@@ -54,7 +54,7 @@ void draw_picture(const std::string& path, const std::function<std::string(const
         const std::string picture = folder.file("picture" + picture_extension(path)), file = folder.file("script.gp");
         write_file(file, script(picture));
         const ProcessResult result = run_process({"gnuplot", file});
-        if (result.interrupted) throw Error(ExitCode::interrupted, "lagen: interrupted while drawing");
+        if (result.interrupted) throw InterruptedError("lagen: interrupted while drawing");
         if (!result.started || result.exit_code != 0)
             throw MachineError(
                 fmt::format("error: gnuplot failed with exit code {}\n{}", result.exit_code, result.error));

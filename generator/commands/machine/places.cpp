@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/machine/places.hpp"
 
+#include "commands/machine/temporary_folder.hpp"
 #include "commands/machine/write_file.hpp"
 #include "diagnostic.hpp"
 
 #include <fmt/core.h>
 
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
 #include <filesystem>
+#include <map>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 namespace lagen {
@@ -40,11 +46,53 @@ std::string first_with(const std::vector<fs::path>& folders, const char* file)
     return "";
 }
 
-bool writable(const fs::path& folder)
+/// Why programs can be neither made in `folder`, which is made, nor run from there; "" where they can.
+std::string look_for_obstacle(const fs::path& folder)
 {
+    constexpr off_t room = 4 << 20; // bytes, of a program and what it is made from
     std::error_code error;
     fs::create_directories(folder, error);
-    return !error && ::access(folder.c_str(), W_OK) == 0;
+    if (error) return error.message();
+    const InterruptsHeld held;
+    std::string probe = (folder / "build-XXXXXX").string();
+    const int file = ::mkstemp(probe.data());
+    if (file < 0) return std::strerror(errno);
+    ::unlink(probe.c_str());
+    const int failure = ::posix_fallocate(file, 0, room);
+    struct statvfs system {};
+    const bool executes = ::fstatvfs(file, &system) != 0 || (system.f_flag & ST_NOEXEC) == 0;
+    ::close(file);
+    if (failure == ENOSPC || failure == EDQUOT || failure == EFBIG) return std::strerror(failure);
+    return executes ? "" : "no program can be run from there (noexec)";
+}
+
+/// The same, looked for once.
+const std::string& obstacle_in(const fs::path& folder)
+{
+    static std::map<std::string, std::string> known;
+    const auto [found, is_new] = known.try_emplace(folder.string());
+    if (is_new) found->second = look_for_obstacle(folder);
+    return found->second;
+}
+
+/// The first of the folders that are named for it.
+fs::path wanted_cache()
+{
+    if (const std::string own = environment("LAGEN_CACHE"); !own.empty()) return own;
+    if (const std::string xdg = environment("XDG_CACHE_HOME"); !xdg.empty()) return fs::path(xdg) / "lagen";
+    if (const std::string home = environment("HOME"); !home.empty()) return fs::path(home) / ".cache" / "lagen";
+    return {};
+}
+
+/// Below a shared folder the name may be taken by somebody else: compiled code is only ever run from a folder of ours.
+std::string obstacle_in_shared(const fs::path& folder)
+{
+    struct stat status {};
+    ::mkdir(folder.c_str(), 0700);
+    if (::lstat(folder.c_str(), &status) != 0) return std::strerror(errno);
+    if (!S_ISDIR(status.st_mode) || status.st_uid != ::getuid() || (status.st_mode & 022U) != 0)
+        return "it is not a folder that this user alone can write";
+    return obstacle_in(folder);
 }
 
 } // namespace
@@ -105,28 +153,21 @@ std::string model_path(const std::string& given)
 
 std::string cache_folder()
 {
-    const std::string own = environment("LAGEN_CACHE");
-    const std::string xdg = environment("XDG_CACHE_HOME");
-    const std::string home = environment("HOME");
-    std::vector<fs::path> candidates;
-    if (!own.empty()) candidates.emplace_back(own);
-    if (!xdg.empty()) candidates.emplace_back(fs::path(xdg) / "lagen");
-    if (!home.empty()) candidates.emplace_back(fs::path(home) / ".cache" / "lagen");
-    for (const fs::path& candidate : candidates)
-        if (writable(candidate)) return candidate.string();
-
-    // Below a shared folder the name may be taken by somebody else: compiled code is only ever run from a folder of
-    // ours.
-    std::error_code ignored;
-    const fs::path shared = fs::temp_directory_path(ignored) / fmt::format("lagen-{}", ::getuid());
-    struct stat status {};
-    ::mkdir(shared.c_str(), 0700);
-    if (::lstat(shared.c_str(), &status) == 0 && S_ISDIR(status.st_mode) && status.st_uid == ::getuid() &&
-        (status.st_mode & 022U) == 0)
-        return shared.string();
-    throw MachineError(
-        fmt::format("error: no folder for compiled scenes can be written (tried {} and '{}')\nhint: set LAGEN_CACHE",
-                    candidates.empty() ? "none" : fmt::format("'{}'", candidates.front().string()), shared.string()));
+    const fs::path wanted = wanted_cache();
+    const std::string obstacle = wanted.empty() ? "none is named" : obstacle_in(wanted);
+    if (obstacle.empty()) return wanted.string();
+    const std::string found =
+        wanted.empty() ? "there is no folder for compiled scenes: LAGEN_CACHE, XDG_CACHE_HOME and HOME are not set"
+                       : fmt::format("'{}' is no folder for compiled scenes: {}", wanted.string(), obstacle);
+    const fs::path shared = fs::path(shared_temporary_folder()) / fmt::format("lagen-{}", ::getuid());
+    const std::string other = obstacle_in_shared(shared);
+    if (!other.empty())
+        throw MachineError(
+            fmt::format("error: {}\nand neither is '{}': {}\nhint: set LAGEN_CACHE", found, shared.string(), other));
+    static bool told = false;
+    if (!told) write_standard_error(fmt::format("note: {}; they go to '{}'\n", found, shared.string()));
+    told = true;
+    return shared.string();
 }
 
 } // namespace lagen

@@ -22,7 +22,8 @@ namespace lagen {
 [[nodiscard]] std::string model_path(const std::string& given);
 
 /// A folder for compiled scenes: LAGEN_CACHE, else XDG_CACHE_HOME/lagen, else ~/.cache/lagen; made if missing. Where
-/// none of these can be written, a private folder below TMPDIR.
+/// it cannot be written, is full, or no program can be run from there, a private folder below TMPDIR, which standard
+/// error is told once. MachineError where that cannot be used either.
 [[nodiscard]] std::string cache_folder();
 
 } // namespace lagen

@@ -2,12 +2,20 @@
 /// Child processes: no shell in between, so that no name or path is ever interpreted.
 #pragma once
 
+#include "diagnostic.hpp"
+
 #include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
 
 namespace lagen {
+
+/// The user ended the command (exit code 130).
+class InterruptedError : public Error {
+  public:
+    explicit InterruptedError(const std::string& text) : Error(ExitCode::interrupted, text) {}
+};
 
 struct ProcessResult {
     int exit_code = 0;        ///< 128 + signal where it was killed

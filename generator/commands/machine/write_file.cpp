@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/machine/write_file.hpp"
 
+#include "commands/machine/activity_watch.hpp"
 #include "diagnostic.hpp"
 
 #include <fmt/core.h>
@@ -69,7 +70,7 @@ void write_directly(const std::string& path, std::string_view content)
     if (file < 0) fail(path, errno);
     int error = write_all(file, content);
     if (::close(file) != 0 && error == 0) error = errno;
-    if (error != 0) fail(path, error);
+    if (error != 0 && error != EPIPE) fail(path, error);
 }
 
 } // namespace
@@ -114,13 +115,15 @@ void require_writable(const std::string& path)
 
 void write_standard_output(std::string_view content)
 {
-    std::fflush(stdout);
+    wipe_activity_line();
     const int error = write_all(STDOUT_FILENO, content);
-    if (error != 0) throw MachineError(fmt::format("error: cannot write to standard output: {}", std::strerror(error)));
+    if (error != 0 && error != EPIPE)
+        throw MachineError(fmt::format("error: cannot write to standard output: {}", std::strerror(error)));
 }
 
 void write_standard_error(std::string_view text)
 {
+    wipe_activity_line();
     (void)write_all(STDERR_FILENO, text);
 }
 

@@ -9,14 +9,16 @@
 namespace lagen {
 
 /// Writes `content` to `path` ("-" is standard output). A device or a pipe is written directly. Throws MachineError
-/// with the reason (disk full, no such folder, ...); no temporary is left behind, on a signal neither.
+/// with the reason (disk full, no such folder, ...); no temporary is left behind, on a signal neither. A reader of a
+/// pipe who went away has what he wanted: the rest is written to nobody, and the command comes to its own end.
 void write_file(const std::string& path, std::string_view content);
 
 /// Throws as `write_file` will where `path` is a folder or stands in none that files can be made in: before a long
 /// computation whose result goes there.
 void require_writable(const std::string& path);
 
-/// Writes to standard output and reports failure (a closed pipe, a full disk) as MachineError.
+/// Writes to standard output and reports failure (a closed stream, a full disk) as MachineError; a reader who went away
+/// is none, as above.
 void write_standard_output(std::string_view content);
 
 /// Writes to standard error as well as it can: a message that nobody can read is no reason to fail.

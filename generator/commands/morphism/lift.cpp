@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/morphism/lift.hpp"
 
-#include "commands/scene/table.hpp"
 #include "graph/calculus/determinant.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/lower.hpp"
 #include "mechanics/momentum_balance.hpp"
+#include "model/plain_names.hpp"
 
 #include <fmt/core.h>
 
@@ -18,7 +18,7 @@ std::vector<std::string> names_of_lifts(const SystemMorphism& map)
 {
     std::vector<std::string> names;
     for (const NodeId x : map.source.algebroid.x) names.push_back("lifted_" + map.source.graph.input_name(x));
-    names = csv_names(names);
+    names = plain_names(names);
     for (std::string& name : names)
         while (map.target.declares(name)) name += "_";
     return names;

@@ -21,6 +21,7 @@ OverlaidRun::OverlaidRun(const Options& options, const CheckedModel& checked, co
     const MethodEntry& method = method_of(options, scene);
     run_.prepare(std::move(scene), method, options.has("at") && !options.has("t-end"));
     outcome_ = run_.integrate();
+    if (is_interrupted(outcome_)) throw InterruptedError("lagen: interrupted while drawing");
 }
 
 std::vector<std::string> overlaid_scenes(const Options& options, const Model& model, const Scene& first)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/plot/box.hpp"
+#include "commands/plot/projection.hpp"
 #include "commands/plot/sphere.hpp"
 
 #include <algorithm>

@@ -20,7 +20,7 @@ namespace {
 /// Choices of coordinates that are looked at.
 constexpr std::size_t most_choices = 2000;
 
-using Values = std::vector<std::optional<NodeId>>; // of each coordinate; nothing where it cannot be fixed
+using FixedNodes = std::vector<std::optional<NodeId>>; // of each coordinate; nothing where it cannot be fixed
 
 /// All choices of `size` among `count`, in lexicographic order.
 std::vector<std::vector<std::size_t>> choices_of(std::size_t size, std::size_t count)
@@ -39,9 +39,9 @@ std::vector<std::vector<std::size_t>> choices_of(std::size_t size, std::size_t c
     return out;
 }
 
-Values start_values(Graph& graph, const Model& model)
+FixedNodes start_values(Graph& graph, const Model& model)
 {
-    Values values(model.base.coordinates.size());
+    FixedNodes values(model.base.coordinates.size());
     if (model.scenes.empty()) return values;
     const Scene& scene = find_scene(model, "");
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -52,9 +52,9 @@ Values start_values(Graph& graph, const Model& model)
 }
 
 /// Values of coordinates by name; those that are not named are free.
-Values named_values(Graph& graph, const Model& model, const std::string& text)
+FixedNodes named_values(Graph& graph, const Model& model, const std::string& text)
 {
-    Values values(model.base.coordinates.size());
+    FixedNodes values(model.base.coordinates.size());
     const std::vector<Symbol> parameters = parameter_symbols(model);
     for (const std::string& each : split_list(text)) {
         const Setting setting = read_setting("reduce", "slice", each);
@@ -80,18 +80,18 @@ Slice choose_slice(Graph& graph, const CheckedModel& checked, const Infinitesima
     const Model& model = checked.model;
     const System& whole = checked.system;
     const std::size_t size = action.fields.size();
-    std::vector<Values> offers;
+    std::vector<FixedNodes> offers;
     if (text.empty())
-        offers = {start_values(graph, model), Values(whole.n(), graph.constant(0))};
+        offers = {start_values(graph, model), FixedNodes(whole.n(), graph.constant(0))};
     else
         offers = {named_values(graph, model, text)};
     Replacements start; // a slice that orbits cross there is better than one that they touch
     for (std::size_t i = 0; i < whole.n(); ++i)
         if (offers[0][i]) start.emplace_back(whole.algebroid.x[i], *offers[0][i]);
     std::optional<Slice> crossed, touched;
-    Judge judge(graph, proof_setting(graph, whole), accessory_inputs(whole), 0, {});
+    Judge judge(graph, proof_setting(graph, whole), 0, {});
     const auto vanishes = [&](NodeId f) { return judge.decide(f).status != ProofStatus::refuted; };
-    for (const Values& values : offers)
+    for (const FixedNodes& values : offers)
         for (const std::vector<std::size_t>& choice : choices_of(size, whole.n())) {
             Slice slice{choice, {}};
             for (const std::size_t k : choice)

@@ -6,6 +6,7 @@
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/lower.hpp"
 #include "model/families.hpp"
+#include "model/plain_names.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -22,15 +23,6 @@ Tree with_values(const Tree& tree, const std::map<std::string, Tree>& values)
         const auto found = values.find(node->name);
         return found == values.end() ? nullptr : found->second;
     });
-}
-
-/// "x[3]" as "x_3", "R[1,2]" as "R_1_2".
-std::string without_brackets(const std::string& name)
-{
-    std::string out;
-    for (const char c : name)
-        if (c != ']') out += c == '[' || c == ',' ? '_' : c;
-    return out;
 }
 
 /// "x[1..3]"
@@ -106,7 +98,7 @@ void QuotientDocument::choose_names(const std::vector<Symbol>& symbols, bool fib
             if (!stays) {
                 const bool moves = nodes[i] != own[i];
                 const std::string& of = (moves ? reduction_.model.base.coordinates : symbols)[i].name;
-                const std::string wanted = (moves ? "u_" : "") + without_brackets(of);
+                const std::string wanted = (moves ? "u_" : "") + plain_name(of);
                 free = !moves && group.shape.rank == Rank::scalar ? of : unused(wanted);
                 (fibre ? velocities_ : base_).push_back(free);
             }

@@ -2,6 +2,7 @@
 #include "commands/scene/preparation.hpp"
 
 #include "mechanics/quadrature.hpp"
+#include "methods/integrate_compiled.hpp"
 #include "model/form.hpp"
 #include "verify/self_adjoint.hpp"
 
@@ -20,8 +21,14 @@ std::string point_text(const NamedPoint& point)
     std::string text;
     for (const auto& [name, value] : point)
         text += fmt::format("{}{} = {:.6g}", text.empty() ? "" : ", ", name, to_double(value));
-    return text;
+    return text.empty() ? "every point" : text;
 }
+
+/// Kernels of a header that explicit methods, events, rows and what is followed along a run do without.
+constexpr const char* kernels_no_run_asks_for[] = {
+    "jacobian", "input_jacobian", "mass_matrix",     "momentum",       "inverse_dynamics",
+    "velocity", "controls",       "lagrangian",      "cost",           "ambient_velocity",
+    "reaction", "moving_energy",  "algebra_element", "algebra_action", "algebra_bracket"};
 
 constexpr ProofBudget composition_budget{.terms = 5000, .products = 2'000'000};
 
@@ -184,9 +191,14 @@ SceneText scene_text(const CheckedModel& checked, const Scene& scene, const std:
     const bool takes_series = method.kind == MethodKind::series;
     if (takes_series) request.with = {"taylor"};
     if (takes_series && !scene.events.empty()) request.with.emplace_back("event_series");
+    const bool is_model = !driver.abreast && request.time_scale == nullptr && integrates_compiled(method.type);
+    if (is_model)
+        for (const char* kernel : kernels_no_run_asks_for) request.without.emplace_back(kernel);
     Generated generated = generate(checked, request);
     ProgramText text{std::move(generated.header),
-                     program_text(driver, generated.module.name, method, request.time_scale != nullptr)};
+                     is_model ? model_text(generated.module.name)
+                              : program_text(driver, generated.module.name, method, request.time_scale != nullptr)};
+    text.is_model = is_model;
     text.options = rounding_options(); // the same bits in a run and in the rows of a sweep
     if (driver.abreast && goes_abreast(method))
         for (std::string& option : vector_options()) text.options.push_back(std::move(option));

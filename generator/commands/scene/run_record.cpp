@@ -4,7 +4,6 @@
 #include "commands/machine/compile.hpp"
 #include "commands/machine/compile_cache.hpp"
 #include "commands/machine/places.hpp"
-#include "commands/machine/write_file.hpp"
 #include "graph/core/graph.hpp"
 #include "mechanics/discrete.hpp"
 #include "model/families.hpp"
@@ -137,27 +136,19 @@ try {
 
 std::optional<RunRecord> find_record(const std::string& file)
 {
-    std::error_code ignored;
-    if (file.empty() || !fs::is_regular_file(file, ignored)) return std::nullopt;
-    const std::string text = content_of_file(file);
-    if (!text.starts_with(first_line)) return std::nullopt;
-    RunRecord record = read_record(text);
+    const std::optional<std::string> text = kept_text(file);
+    if (!text || !text->starts_with(first_line)) return std::nullopt;
+    RunRecord record = read_record(*text);
     // Compiled code is only ever run from the folder of the record.
     if (fs::path(record.program).parent_path() != fs::path(file).parent_path()) return std::nullopt;
     if (!use_cached(record.program)) return std::nullopt;
-    fs::last_write_time(file, fs::file_time_type::clock::now(), ignored);
     return record;
 }
 
 void keep_record(const std::string& file, const RunRecord& record)
-try {
-    if (file.empty()) return;
+{
     const std::string text = text_of(record);
-    if (text_of(read_record(text)) != text) return;
-    write_file(file, text);
-    trim_cache(fs::path(file).parent_path().string());
-} catch (const MachineError&) {
-    // The next run proves again.
+    if (!file.empty() && text_of(read_record(text)) == text) keep_text(file, text);
 }
 
 bool is_decided_for(const RunRecord& record, const std::vector<long double>& parameters)

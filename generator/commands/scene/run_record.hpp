@@ -38,7 +38,7 @@ void add_model(ContentHash& hash, const Model& model);
 /// itself, the runtime and the compiler. Empty where there is no compiler, or no place for a cache.
 [[nodiscard]] std::string record_file(const Model& model, const std::vector<std::string>& options);
 
-/// Nothing where there is no record, or its program is gone.
+/// Nothing where there is no record, where it or its program is damaged, or its program is gone.
 [[nodiscard]] std::optional<RunRecord> find_record(const std::string& file);
 
 /// A failure to write is no failure of the run.

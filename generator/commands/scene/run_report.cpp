@@ -151,6 +151,7 @@ std::string figures_text(const RunOutcome& outcome)
     std::string text;
     for (const auto* drifts : {&outcome.invariants, &outcome.balance, &outcome.casimirs})
         for (const Drift& drift : *drifts) {
+            if (is_energy(drift) && drift.initial == "0" && drift.max_drift == "0") continue; // costates that are 0
             if (!is_number(drift.initial))
                 text += fmt::format("  {}: no finite number at the start\n", drift.name);
             else
@@ -280,6 +281,32 @@ std::string last_state(const RunOutcome& outcome)
                        outcome.state.size() <= most_lanes ? lanes : "");
 }
 
+/// What the state is worth, or why that is not known.
+std::string accuracy_line(const RunOutcome& outcome)
+{
+    if (outcome.second_run.empty()) return "";
+    return outcome.accuracy ? fmt::format("  {} ({})\n", text_of(*outcome.accuracy), outcome.second_run)
+                            : fmt::format("  error of the state: {}\n", outcome.second_run);
+}
+
+std::string accuracy_members(const RunOutcome& outcome)
+{
+    return fmt::format(" \"accuracy\": {}, \"below_absolute\": {},",
+                       outcome.accuracy ? json_of(*outcome.accuracy) : "null",
+                       list_text(outcome.below_absolute, [](const SmallLane& lane) { return string_text(lane.name); }));
+}
+
+std::string small_lanes_warning(const RunOutcome& outcome)
+{
+    constexpr std::size_t most = 6;
+    const std::vector<SmallLane>& lanes = outcome.below_absolute;
+    std::string names;
+    for (std::size_t k = 0; k < std::min(lanes.size(), most); ++k)
+        names += fmt::format("{}{} (at most {})", k == 0 ? "" : ", ", lanes[k].name, brief(lanes[k].most, 2));
+    if (lanes.size() > most) names += fmt::format(" and {} more", lanes.size() - most);
+    return lanes.empty() ? "" : below_absolute_warning(names, outcome.absolute);
+}
+
 /// Of a run that did not leave its start.
 const char* start_hint(const RunOutcome& outcome)
 {
@@ -290,7 +317,8 @@ const char* start_hint(const RunOutcome& outcome)
                "says where it begins\n";
     if (status == "non_finite" && outcome.method == "taylor")
         return "hint: the right-hand side or its Taylor series is no finite number at the start: the model is not "
-               "defined there, overflows, or raises 0 to a power whose exponent is a parameter; `--bind` makes it a "
+               "defined there, overflows, takes a root of 0, or raises 0 to a power whose exponent is a parameter; "
+               "`--bind` makes it a "
                "number, other methods such as dop853 take no series\n";
     if (status == "non_finite")
         return "hint: the right-hand side is no finite number at the start: the model is not defined there, or "
@@ -312,6 +340,18 @@ bool succeeded(const std::string& status)
     return status == "ok" || status == "stopped_by_event";
 }
 
+bool is_interrupted(const RunOutcome& outcome)
+{
+    return outcome.status == "interrupted";
+}
+
+std::string below_absolute_warning(const std::string& lanes, const std::string& tolerance)
+{
+    return fmt::format("warning: {} moved and never exceeded the absolute tolerance{}{}: the digits may be noise\n"
+                       "hint: `absolute` in the scene far below them, or other units\n",
+                       lanes, tolerance.empty() ? "" : " ", tolerance);
+}
+
 std::string report_json(const RunOutcome& outcome)
 {
     const std::string events = list_text(outcome.events, [&](const EventReport& event) {
@@ -328,7 +368,7 @@ std::string report_json(const RunOutcome& outcome)
     return fmt::format(
         "{{\"model\": {}, \"scene\": {}, \"form\": {}, \"method\": {}, \"status\": {}, \"t\": {}, "
         "\"state\": {},{}{}\n \"steps\": {}, "
-        "\"rejected\": {}, \"rhs_calls\": {},{} \"seconds\": {},\n \"columns\": {},\n \"rows\": {},\n \"events\": "
+        "\"rejected\": {}, \"rhs_calls\": {},{} \"seconds\": {},\n{}\n \"columns\": {},\n \"rows\": {},\n \"events\": "
         "{},\n{}}}\n",
         string_text(outcome.model), string_text(outcome.scene), string_text(outcome.form), string_text(outcome.method),
         string_text(outcome.status), number_text(outcome.time), lanes_json(outcome, state),
@@ -337,7 +377,7 @@ std::string report_json(const RunOutcome& outcome)
             : fmt::format(" \"failed_at\": {},", number_text(outcome.failed_at)) +
                   (outcome.largest_step.empty() ? "" : fmt::format(" \"largest_step\": {},", outcome.largest_step)),
         branches_json(outcome), number_text(outcome.steps), number_text(outcome.rejected),
-        number_text(outcome.rhs_calls), implicit, number_text(outcome.seconds),
+        number_text(outcome.rhs_calls), implicit, number_text(outcome.seconds), accuracy_members(outcome),
         list_text(outcome.table.columns, [](const std::string& column) { return string_text(column); }),
         list_text(outcome.table.lines(), row_text), events, figures_json(outcome) + action_json(outcome));
 }
@@ -361,10 +401,14 @@ std::string report_text(const RunOutcome& outcome)
     else if (failed && outcome.steps != "0")
         text += last_state(outcome);
     text += branches_text(outcome);
+    if (!outcome.not_finite.empty())
+        text += fmt::format("  {} is no finite number there: {} needs the Jacobian; explicit methods such as dop853 do "
+                            "not\n",
+                            outcome.not_finite, outcome.method);
     if (!outcome.largest_step.empty())
         text += fmt::format("  the largest step near it that goes on there: {}\n", outcome.largest_step);
     if (failed && outcome.steps == "0") return text + start_hint(outcome);
-    return text + action_text(outcome) + figures_text(outcome);
+    return text + accuracy_line(outcome) + action_text(outcome) + figures_text(outcome);
 }
 
 std::string start_note(const RunOutcome& outcome)
@@ -377,7 +421,7 @@ std::string start_note(const RunOutcome& outcome)
                        one ? "" : "s", fmt::join(names, "', '"), one ? "it" : "them", one ? "it does" : "they do");
 }
 
-std::string drift_warnings(const RunOutcome& outcome)
+std::string run_warnings(const RunOutcome& outcome)
 {
     std::string text;
     for (const auto* drifts : {&outcome.invariants, &outcome.balance, &outcome.casimirs, &outcome.constraints})
@@ -389,7 +433,7 @@ std::string drift_warnings(const RunOutcome& outcome)
                                 drift.name, brief(drift.max_drift, 3), brief(drift.size, 3), brief(drift.moved_at, 9),
                                 outcome.status == "left_domain" ? ", where the run left the domain"
                                                                 : "; a smaller step or tolerance keeps it better");
-    return text;
+    return text + small_lanes_warning(outcome);
 }
 
 } // namespace lagen

@@ -2,7 +2,7 @@
 /// What a run gave, and how it is told.
 #pragma once
 
-#include "commands/scene/table.hpp"
+#include "commands/scene/state_accuracy.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -42,12 +42,18 @@ struct ActionReport {
     std::vector<std::string> base, fibre, second, squares; ///< one a variation
 };
 
+/// A lane of the state that moved and never exceeded the absolute tolerance, with the most that it came to.
+struct SmallLane {
+    std::string name, most;
+};
+
 struct RunOutcome {
     std::string model, scene, form, method;
     std::string status; ///< "ok", "stopped_by_event", "left_domain", ... (runtime's names)
     std::string time;   ///< of the last good state
     std::vector<std::pair<std::string, std::string>> state; ///< the last good state: lanes by name, base first
     std::string failed_at;    ///< time at which the run met what ended it; `time` where nothing failed
+    std::string not_finite{}; ///< what of the equations is no finite number at the last good state, or ""
     std::string largest_step; ///< near that of a discrete motion that failed, which would have gone on; or ""
     /// Distances of the arrows that are found with the momenta of a discrete start, where they were looked for; of
     /// those with the momenta of the step that failed; and the number of the one that was asked for, 0 where none was.
@@ -64,13 +70,24 @@ struct RunOutcome {
     std::string work;           ///< of them, over the run
     std::string manifold, manifold_time; ///< largest distance from it, where there are constraints
     std::optional<ActionReport> action{};
-    std::vector<std::string> left_out{}; ///< claims and first-order states that have no value in the form
-    bool energy_changes = false;         ///< forces, explicit time, a drift or jumps: the energy is not conserved
+    std::optional<StateAccuracy> accuracy{}; ///< by a second run, where one was made
+    std::string second_run{};                ///< what that was, or why there is none; empty: nothing is said
+    std::vector<SmallLane> below_absolute{}; ///< of an adaptive method
+    std::string absolute{};                  ///< its absolute tolerance
+    std::vector<std::string> left_out{};     ///< claims and first-order states that have no value in the form
+    bool energy_changes = false;             ///< forces, explicit time, a drift or jumps: the energy is not conserved
     Table table;
 };
 
 /// Whether a run came to its end, or to that of its own event.
 [[nodiscard]] bool succeeded(const std::string& status);
+
+/// By the user: there are the rows so far.
+[[nodiscard]] bool is_interrupted(const RunOutcome& outcome);
+
+/// "warning: LANES moved and never exceeded the absolute tolerance ..": steps that are as accurate as their tolerances
+/// ask for no digit of them.
+[[nodiscard]] std::string below_absolute_warning(const std::string& lanes, const std::string& tolerance);
 
 /// The object of `run --format json`; numbers keep their digits, what is not finite is null.
 [[nodiscard]] std::string report_json(const RunOutcome& outcome);
@@ -81,7 +98,8 @@ struct RunOutcome {
 /// A line for standard error where the run starts on events that do not happen there, or beyond them; else nothing.
 [[nodiscard]] std::string start_note(const RunOutcome& outcome);
 
-/// What the equations conserve and this run did not, a line "warning: ..." each.
-[[nodiscard]] std::string drift_warnings(const RunOutcome& outcome);
+/// What the equations conserve and this run did not, and lanes below the absolute tolerance: a line "warning: ..."
+/// each.
+[[nodiscard]] std::string run_warnings(const RunOutcome& outcome);
 
 } // namespace lagen

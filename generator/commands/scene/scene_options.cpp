@@ -7,6 +7,7 @@
 #include "model/families.hpp"
 #include "model/read_curve.hpp"
 #include "model/scene_form.hpp"
+#include "model/scene_values.hpp"
 
 #include <fmt/core.h>
 
@@ -182,18 +183,19 @@ void set_initial(const Model& model, Scene& scene, const Setting& setting)
     const std::vector<Symbol> symbols = initial_symbols(model, scene);
     const std::optional<ResolvedKey> key = resolve_key(symbols, setting.name);
     const std::string given = setting.name + "=" + setting.value.text;
-    if (!key || key->shape.rank != Rank::scalar)
+    if (!key)
         throw ModelError(fmt::format("scene '{}' has no initial value '{}' to change", scene.name, setting.name),
                          whole_text("<--initial>", given).range(0, setting.name.size()),
                          resolve_key(parameter_symbols(model), setting.name)
                              ? fmt::format("--set {} changes a parameter", given)
                              : hint_for_key(symbols, setting.name, "initial values"));
-    const NamedTree value{key->name, option_tree(model, "initial", setting.value), setting.value.range(0, 0)};
-    const auto place = std::ranges::find(scene.initial, key->name, &NamedTree::name);
-    if (place == scene.initial.end())
-        scene.initial.push_back(value);
-    else
-        *place = value;
+    const SourceRange where = setting.value.range(0, setting.value.text.size());
+    const std::vector<Tree> trees = fit_values(option_array(model, "initial", setting.value), key->shape,
+                                               fmt::format("the initial value of '{}'", key->name), where,
+                                               "an entry is written x[1], a norm norm(x)");
+    std::vector<NamedTree> values;
+    for (std::size_t k = 0; k < trees.size(); ++k) values.push_back({symbols[key->indices[k]].name, trees[k], where});
+    put_all(scene.initial, std::move(values));
 }
 
 Scene scene_of(const Options& options, const Model& model, const std::vector<Setting>& initial,

@@ -97,6 +97,11 @@ void read_line(const std::string& key, const std::string& value, RunOutcome& out
         if (lanes.size() != outcome.state.size()) throw InternalError("the program of a scene gave another state");
         for (std::size_t k = 0; k < lanes.size(); ++k) outcome.state[k].second = lanes[k];
     }
+    if (key == "below") { // "LANE:MOST"
+        const std::size_t colon = value.find(':');
+        const auto lane = static_cast<std::size_t>(std::strtoull(value.c_str(), nullptr, 10));
+        outcome.below_absolute.push_back({outcome.state.at(lane).first, value.substr(colon + 1)});
+    }
     if (key == "failed_at") outcome.failed_at = value;
     if (key == "branches") outcome.branches = numbers_of(value);
     if (key == "others") outcome.others = numbers_of(value);
@@ -164,6 +169,13 @@ std::string program_text(const Driver& driver, const std::string& name, const Me
         driver.folder, driver.function, cpp_names({name})[0], type);
 }
 
+std::string model_text(const std::string& name)
+{
+    return fmt::format(
+        "#include \"lagen/export_model.hpp\"\n#include \"model.hpp\"\nLAGEN_EXPORT_MODEL(lagen::models::{})\n",
+        cpp_names({name})[0]);
+}
+
 TableNames names_of(const Model& model, const KernelModule& module)
 {
     TableNames names{{}, entries_of(module, "observables"), state_names(model, module.form)};
@@ -227,6 +239,7 @@ std::vector<std::string> program_arguments(const std::string& program, const Pro
     if (input.step) give("--step", text_of(*input.step));
     if (input.relative) give("--relative", text_of(*input.relative));
     if (input.absolute) give("--absolute", text_of(*input.absolute));
+    if (input.most_steps) give("--max-steps", std::to_string(*input.most_steps));
     if (!input.held_inputs.empty()) give("--inputs", input.inputs_file);
     if (input.from_arrow) give("--from", "arrow");
     if (input.branch) give("--branch", std::to_string(*input.branch));

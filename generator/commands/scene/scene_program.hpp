@@ -25,6 +25,9 @@ inline constexpr Driver sweep_driver{"lagen_sweep", "sweep", true};
 [[nodiscard]] std::string program_text(const Driver& driver, const std::string& name, const MethodEntry& method,
                                        bool reversible = false);
 
+/// The whole source of a compiled model of class `name` (of header "model.hpp").
+[[nodiscard]] std::string model_text(const std::string& name);
+
 /// A column of the table: a state lane or an entry of the observables.
 struct TableColumn {
     std::string name;
@@ -47,12 +50,14 @@ struct TableNames {
 
 /// Everything that the program is told.
 struct ProgramInput {
+    std::string method_type; ///< the runtime's type of the method
     std::vector<long double> parameters;
     std::vector<long double> initial;    ///< state lanes, base first
     bool from_arrow = false;             ///< of a discrete motion: its momenta are those of the arrow
     std::optional<std::uint64_t> branch; ///< of one that starts from momenta: the number of its first arrow
     SampleTimes times;
     std::optional<long double> step, relative, absolute;
+    std::optional<std::uint64_t> most_steps;      ///< without it the runtime's
     std::string at_file;                          ///< path of the file with the times
     std::vector<std::vector<double>> held_inputs; ///< rows t, u_1, u_2, .. of a table; empty: none
     std::string inputs_file;                      ///< path of the file with them

@@ -6,6 +6,9 @@
 #include "commands/scene/domain_walls.hpp"
 #include "commands/scene/integrate_scene.hpp"
 #include "commands/scene/largest_step.hpp"
+#include "commands/scene/second_run.hpp"
+#include "kernels/form_kernels.hpp"
+#include "kernels/non_finite.hpp"
 #include "model/scene_form.hpp"
 #include "scene/read_input_table.hpp"
 
@@ -29,6 +32,7 @@ void SceneRun::prepare(Scene scene, const MethodEntry& method, bool stretch)
     if (!values_.discrete) add_walls(scene_, checked_.model);
     parameters_ = finite_numbers(values_.parameters, scene_);
     input_.events = &scene_.events;
+    input_.method_type = method.type;
     const auto decided = [this](bool needed) -> const CheckedModel& {
         return preparation_.checked(parameters_, needed);
     };
@@ -41,6 +45,23 @@ void SceneRun::prepare(Scene scene, const MethodEntry& method, bool stretch)
     });
 }
 
+std::string SceneRun::not_finite(const RunOutcome& outcome)
+{
+    const bool fails =
+        outcome.status == "non_finite" || outcome.status == "step_too_small" || outcome.status == "newton_diverged";
+    if (!fails || method_->kind != MethodKind::implicit_stages || values_.discrete) return {};
+    const CheckedModel& checked = preparation_.checked(parameters_, true);
+    KernelRequest request;
+    request.form = form_;
+    request.only = {"rhs"};
+    request.scene = &scene_;
+    std::map<std::string, double> at{{"t", std::strtod(outcome.time.c_str(), nullptr)}};
+    for (const auto& [name, value] : outcome.state) at[name] = std::strtod(value.c_str(), nullptr);
+    for (const auto* numbers : {&values_.parameters, &values_.inputs})
+        for (const auto& [name, value] : *numbers) at[name] = static_cast<double>(value);
+    return non_finite_entry(form_kernels(checked.model, checked.system, checked.report, request), at);
+}
+
 RunOutcome SceneRun::integrate()
 {
     RunOutcome outcome;
@@ -51,16 +72,23 @@ RunOutcome SceneRun::integrate()
     outcome.energy_changes = record().energy_changes;
     outcome.searches = record().searches;
     outcome.branch = input_.branch.value_or(0);
+    if (method_->adaptive && input_.absolute)
+        outcome.absolute = fmt::format("{}", static_cast<double>(*input_.absolute));
     outcome.table.columns = {"t"};
     for (const TableColumn& column : input_.columns) outcome.table.columns.push_back(column.name);
     for (const std::string& lane : record().names.lanes) outcome.state.emplace_back(lane, "");
     outcome.left_out = names_without_values(checked_.model, form_);
-    integrate_scene(record().program, input_, outcome);
+    if (!is_uninterrupted([&] { integrate_scene(record().program, input_, outcome); })) return outcome;
     if (is_nonholonomic(checked_.model) && outcome.energy_changes) // reactions and drifts work on it: no invariant
         std::erase_if(outcome.invariants, is_energy);
     call_walls(outcome);
+    outcome.not_finite = not_finite(outcome);
     if (!options_.has("bind") && !is_branch_missing(outcome))
-        outcome.largest_step = largest_step(checked_.model, scene_, record().program, input_, *start_, outcome);
+        (void)is_uninterrupted([&] {
+            outcome.largest_step = largest_step(checked_.model, scene_, record().program, input_, *start_, outcome);
+        });
+    if (const SecondRun second = second_run_of(options_); second != SecondRun::none)
+        judge_state({checked_.model, scene_, *method_, record().program, input_, *start_}, second, outcome);
     return outcome;
 }
 

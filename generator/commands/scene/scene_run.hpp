@@ -19,8 +19,9 @@ class SceneRun {
     /// sample_times.
     void prepare(Scene scene, const MethodEntry& method, bool stretch);
 
-    /// After `prepare`: runs the program. Of a discrete motion that failed the largest step that goes on is sought,
-    /// unless parameters are bound.
+    /// After `prepare`: runs the program, and a second time for what its state is worth (second_run.hpp). Of a discrete
+    /// motion that failed the largest step that goes on is sought, unless parameters are bound. An interrupt leaves the
+    /// rows so far, with the status "interrupted".
     [[nodiscard]] RunOutcome integrate();
 
     [[nodiscard]] const CheckedModel& checked() const { return checked_; }
@@ -34,6 +35,9 @@ class SceneRun {
     [[nodiscard]] ProgramInput& input() { return input_; }
 
   private:
+    /// What of the equations is no finite number where an implicit method ended.
+    [[nodiscard]] std::string not_finite(const RunOutcome& outcome);
+
     const Options& options_;
     CheckedModel& checked_;
     Preparation preparation_;

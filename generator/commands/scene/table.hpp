@@ -21,11 +21,7 @@ struct Table {
 /// The fields of one CSV line of numbers; an empty one stands for what is no finite number.
 [[nodiscard]] std::vector<std::string_view> fields(std::string_view line);
 
-/// Names of columns as identifiers, all different: x[1] is x_1, W[1,1] is W_1_1; one that was there before gets a
-/// number.
-[[nodiscard]] std::vector<std::string> csv_names(const std::vector<std::string>& names);
-
-/// RFC 4180: a heading of `csv_names`, then the rows, CRLF line ends.
-[[nodiscard]] std::string to_csv(const Table& table);
+/// RFC 4180: a heading, plain_names(columns, known), then the rows, CRLF line ends. `known`: the names of the model.
+[[nodiscard]] std::string to_csv(const Table& table, const std::vector<std::string>& known);
 
 } // namespace lagen

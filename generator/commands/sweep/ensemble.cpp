@@ -3,6 +3,7 @@
 #include "commands/sweep/sweep_rows.hpp"
 #include "content_hash.hpp"
 #include "model/families.hpp"
+#include "model/plain_names.hpp"
 
 #include <fmt/core.h>
 
@@ -83,6 +84,22 @@ class EnsembleFile {
     std::size_t number_ = 0;
 };
 
+/// What a column of the heading names, with the option in front or without; nothing where it names nothing.
+SweptName headed_name(const std::string& text, const Model& model, const Scene& scene,
+                      const std::vector<std::string>& known)
+{
+    for (const bool exact : {true, false})
+        for (const std::string option : {"set", "initial"}) {
+            const std::vector<Symbol> symbols = swept_symbols(option, model, scene);
+            const std::string name = text.starts_with(option + ".") ? text.substr(option.size() + 1) : text;
+            const std::optional<ResolvedKey> key = exact ? resolve_key(symbols, name) : std::nullopt;
+            if (key && key->shape.rank == Rank::scalar) return {option, key->name};
+            const auto place = exact ? std::nullopt : find_plain(names_of(symbols), name, known);
+            if (place) return {option, symbols[*place].name};
+        }
+    return {};
+}
+
 /// What the heading names.
 std::vector<SweptName> headed_names(const EnsembleFile& file, const Model& model, const Scene& scene)
 {
@@ -90,14 +107,9 @@ std::vector<SweptName> headed_names(const EnsembleFile& file, const Model& model
     std::vector<std::string> known;
     for (const char* option : {"set", "initial"})
         for (const Symbol& symbol : swept_symbols(option, model, scene)) known.push_back(symbol.name);
+    const std::vector<std::string> all = all_names(model);
     for (const CsvField& field : csv_fields(file.line())) {
-        SweptName found;
-        for (const std::string option : {"set", "initial"}) {
-            const bool prefixed = field.text.starts_with(option + ".");
-            const std::string name = prefixed ? field.text.substr(option.size() + 1) : field.text;
-            const std::optional<ResolvedKey> key = resolve_key(swept_symbols(option, model, scene), name);
-            if (key && key->shape.rank == Rank::scalar && found.name.empty()) found = {option, key->name};
-        }
+        SweptName found = headed_name(field.text, model, scene, all);
         if (found.name.empty()) {
             const std::string nearest = nearest_name(field.text, known);
             file.refuse_line(fmt::format("the column '{}' is neither a parameter of the model nor an initial value of "

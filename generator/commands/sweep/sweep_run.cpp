@@ -7,6 +7,7 @@
 #include "commands/sweep/sweep_rows.hpp"
 #include "diagnostic.hpp"
 #include "model/families.hpp"
+#include "model/plain_names.hpp"
 
 #include <fmt/core.h>
 
@@ -44,13 +45,16 @@ std::string sweep_heading(const SweepSetting& setting, const SweepRows& rows)
 {
     std::vector<std::string> names{"index", "status", "t"};
     for (const TableColumn& column : columns_of(setting.record.names, setting.scene)) names.push_back(column.name);
-    const std::vector<std::string> columns = csv_names(names);
+    const std::vector<std::string> known = all_names(setting.model), columns = plain_names(names, known);
+    std::vector<std::string> swept;
+    for (const SweptName& name : rows.names) swept.push_back(name.name);
+    swept = plain_names(swept, known);
     std::string text = columns[0];
     const auto put = [&](const std::string& name) { text += ',' + name; };
-    for (const SweptName& name : rows.names) put(name.option + '.' + csv_names({name.name})[0]);
+    for (std::size_t k = 0; k < swept.size(); ++k) put(rows.names[k].option + '.' + swept[k]);
     for (std::size_t k = 2; k < columns.size(); ++k) put(columns[k]);
     for (const Event& event : setting.scene.events) {
-        const std::string name = "event." + csv_names({event.name})[0];
+        const std::string name = "event." + plain_name(event.name);
         put(name + ".count");
         put(name + ".t");
     }
@@ -158,6 +162,14 @@ const std::string& SweepRun::failed_status(const std::string& number) const
     return failures_[static_cast<std::size_t>(*place - 1)];
 }
 
+/// "<LANE>" before the row.
+void SweepRun::take_small_lanes(std::string& line)
+{
+    if (line.starts_with('<')) ++rows_below_absolute_;
+    for (; line.starts_with('<'); line.erase(0, line.find('>') + 1))
+        lanes_below_absolute_.insert(setting_.record.names.lanes.at(std::strtoull(line.c_str() + 1, nullptr, 10)));
+}
+
 void SweepRun::take(const char* bytes, std::size_t count)
 {
     unfinished_.append(bytes, count);
@@ -166,6 +178,7 @@ void SweepRun::take(const char* bytes, std::size_t count)
     for (std::size_t end = 0; (end = unfinished_.find('\n', begin)) != std::string::npos; begin = end + 1) {
         if (pending_.empty()) throw InternalError("the program of a sweep gave a row too many");
         std::string line = unfinished_.substr(begin, end - begin);
+        take_small_lanes(line);
         if (line.starts_with('#'))
             line = std::string(inner_fields(input_.columns.size(), setting_.scene.events.size()), ',') +
                    failed_status(line.substr(1));
@@ -191,9 +204,8 @@ void SweepRun::run()
     require_started(result, setting_.record.program);
     if (file_.rows() == wanted && result.exit_code == 0) return write_standard_error(result.error);
     if (result.interrupted)
-        throw Error(ExitCode::interrupted,
-                    fmt::format("lagen: interrupted, {} of {} rows are done; --resume goes on with them", file_.rows(),
-                                wanted));
+        throw InterruptedError(fmt::format("lagen: interrupted, {} of {} rows are done; --resume goes on with them",
+                                           file_.rows(), wanted));
     refuse_end(result, fmt::format("hint: {} of {} rows are done; --resume goes on with them", file_.rows(), wanted));
 }
 

@@ -8,6 +8,7 @@
 #include "commands/sweep/sweep_rows.hpp"
 
 #include <deque>
+#include <set>
 
 namespace lagen {
 
@@ -37,6 +38,10 @@ class SweepRun {
     /// How many rows have values for which their equations are not proved.
     [[nodiscard]] std::uint64_t unproved() const { return unproved_; }
 
+    /// How many rows have lanes that moved and never exceeded the absolute tolerance, and the names of these lanes.
+    [[nodiscard]] std::uint64_t rows_below_absolute() const { return rows_below_absolute_; }
+    [[nodiscard]] const std::set<std::string>& lanes_below_absolute() const { return lanes_below_absolute_; }
+
   private:
     [[nodiscard]] std::vector<std::string> arguments() const;
     std::string next_starts();
@@ -44,6 +49,7 @@ class SweepRun {
     std::string start_of(const std::vector<std::string>& texts);
     [[nodiscard]] const std::string& failed_status(const std::string& number) const;
     void take(const char* bytes, std::size_t count);
+    void take_small_lanes(std::string& line);
 
     const SweepSetting& setting_;
     const SweepRows& rows_;
@@ -58,7 +64,8 @@ class SweepRun {
     std::deque<std::string> pending_;   ///< the first fields of rows that the program has
     std::vector<std::string> failures_; ///< statuses of rows without a start, by the program's number from 1 on
     std::map<std::string, std::string> reasons_;
-    std::uint64_t unproved_ = 0;
+    std::uint64_t unproved_ = 0, rows_below_absolute_ = 0;
+    std::set<std::string> lanes_below_absolute_;
     std::string unfinished_; ///< the beginning of a line
 };
 

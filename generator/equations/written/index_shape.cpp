@@ -10,7 +10,7 @@
 namespace lagen {
 namespace {
 
-constexpr std::size_t most_nodes = 4000; ///< of an expression that is looked at
+constexpr std::size_t most_shape_nodes = 4000; ///< of an expression that is looked at
 
 /// Gives back what is put for the index.
 using IndexMap = std::function<std::string(const IndexSlot&)>;
@@ -46,7 +46,7 @@ Tree mapped(const Tree& tree, const IndexMap& map)
 
 void append_form(const Tree& tree, std::string& form, std::size_t& nodes)
 {
-    if (++nodes > most_nodes) return;
+    if (++nodes > most_shape_nodes) return;
     form += fmt::format("{}/{}", static_cast<int>(tree->kind), tree->arguments.size());
     switch (tree->kind) {
     case TreeKind::number: form += tree->number.get_str(); break;
@@ -101,7 +101,7 @@ IndexShape shape_of(const Tree& tree)
     IndexShape shape;
     std::size_t nodes = 0;
     append_form(tree, shape.form, nodes);
-    if (nodes > most_nodes) return {};
+    if (nodes > most_shape_nodes) return {};
     mapped(tree, [&](const IndexSlot& slot) {
         shape.slots.push_back(slot);
         return slot.text;

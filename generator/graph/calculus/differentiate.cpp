@@ -2,11 +2,14 @@
 /// Forward and reverse sweeps by the rules of the operator table, and the rules of linear solves.
 #include "graph/calculus/differentiate.hpp"
 
+#include "graph/calculus/limits.hpp"
 #include "graph/core/operators.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
+#include <utility>
 
 namespace lagen {
 namespace {
@@ -56,13 +59,14 @@ std::vector<NodeId> solve_tangent(Graph& graph, const LinearSystem& system, cons
 }
 
 /// The scalar rule: sum over the operands of (d node / d operand) * tangent.
-NodeId node_tangent(Graph& graph, NodeId id, const std::vector<NodeId>& tangents)
+NodeId node_tangent(Graph& graph, NodeId id, const std::vector<NodeId>& tangents, Limits* limits)
 {
     const auto rule = operator_of(graph.op(id)).contribution;
     NodeId sum = graph.constant(0);
     for (std::size_t k = 0; k < graph.operands(id).size(); ++k) {
         const NodeId tangent = tangents[graph.operands(id)[k]];
-        if (!graph.is_zero(tangent)) sum = graph.add(sum, rule(graph, id, k, tangent));
+        if (graph.is_zero(tangent)) continue;
+        sum = graph.add(sum, limits != nullptr ? limits->contribution(id, k, tangent) : rule(graph, id, k, tangent));
     }
     return sum;
 }
@@ -137,44 +141,123 @@ class ReverseSweep {
     std::map<NodeId, std::vector<NodeId>> solve_adjoints_;
 };
 
+enum class AtZeros { chain_rule, limits };
+
+/// Forward sweeps over what the outputs need, each of which visits the nodes alone that its seeds move.
+class ForwardSweep {
+  public:
+    ForwardSweep(Graph& graph, std::span<const NodeId> outputs, AtZeros at_zeros)
+        : graph_(graph), at_zeros_(at_zeros), zero_(graph.constant(0)), outputs_(outputs.begin(), outputs.end()),
+          nodes_(reachable(graph, outputs))
+    {
+        const std::vector<NodeId>& nodes = nodes_;
+        tangents_.assign(nodes.empty() ? 0 : std::size_t{nodes.back()} + 1, zero_);
+        ends_.assign(tangents_.size() + 1, 0);
+        for (const NodeId id : nodes)
+            for (const NodeId operand : graph.operands(id)) ++ends_[operand + 1];
+        std::partial_sum(ends_.begin(), ends_.end(), ends_.begin());
+        users_.resize(ends_.back());
+        std::vector<std::size_t> next = ends_;
+        for (const NodeId id : nodes)
+            for (const NodeId operand : graph.operands(id)) users_[next[operand]++] = id;
+    }
+
+    [[nodiscard]] std::vector<NodeId> along(std::span<const std::pair<NodeId, NodeId>> seeds)
+    {
+        std::vector<NodeId> inputs;
+        for (const auto& [input, tangent] : seeds)
+            if (input < tangents_.size()) inputs.push_back(input);
+        const std::vector<NodeId> moved = moved_by(inputs);
+        for (const auto& [input, tangent] : seeds)
+            if (input < tangents_.size()) tangents_[input] = tangent;
+        std::map<NodeId, std::vector<NodeId>> solutions;
+        std::vector<bool> active;
+        std::optional<Limits> limits;
+        if (at_zeros_ == AtZeros::limits) {
+            active.assign(tangents_.size(), false);
+            for (const std::vector<NodeId>* some : {&moved, &std::as_const(inputs)})
+                for (const NodeId id : *some) active[id] = true;
+            limits.emplace(graph_, outputs_, nodes_, active);
+        }
+        for (const NodeId id : moved) {
+            const Op op = graph_.op(id);
+            if (op == Op::solve)
+                solutions.emplace(id, solve_tangent(graph_, system_of(graph_, id), tangents_));
+            else if (op == Op::component)
+                tangents_[id] = solutions.at(graph_.operands(id)[0])[graph_.payload(id)];
+            else if (op != Op::factor)
+                tangents_[id] = node_tangent(graph_, id, tangents_, limits ? &*limits : nullptr);
+        }
+        std::vector<NodeId> result;
+        for (const NodeId output : outputs_) result.push_back(tangents_[output]);
+        for (const std::vector<NodeId>* touched : {&moved, &std::as_const(inputs)})
+            for (const NodeId id : *touched) tangents_[id] = zero_;
+        return result;
+    }
+
+  private:
+    /// The nodes that depend on one of `inputs`, ascending, without these: one that is itself an inner node (a named
+    /// quantity) keeps its tangent.
+    [[nodiscard]] std::vector<NodeId> moved_by(const std::vector<NodeId>& inputs) const
+    {
+        std::vector<NodeId> open = inputs, moved;
+        std::vector<bool> seen(tangents_.size(), false);
+        for (const NodeId input : inputs) seen[input] = true;
+        while (!open.empty()) {
+            const NodeId id = open.back();
+            open.pop_back();
+            for (std::size_t k = ends_[id]; k < ends_[id + 1]; ++k) {
+                if (seen[users_[k]]) continue;
+                seen[users_[k]] = true;
+                open.push_back(users_[k]);
+                moved.push_back(users_[k]);
+            }
+        }
+        std::ranges::sort(moved);
+        return moved;
+    }
+
+    Graph& graph_;
+    AtZeros at_zeros_;
+    NodeId zero_;
+    std::vector<NodeId> outputs_, nodes_;
+    std::vector<NodeId> users_; ///< of operand k: users_[ends_[k]], .., users_[ends_[k + 1] - 1]
+    std::vector<std::size_t> ends_;
+    std::vector<NodeId> tangents_; ///< zeros between two sweeps
+};
+
+std::vector<NodeId> directional(Graph& graph, std::span<const NodeId> outputs,
+                                std::span<const std::pair<NodeId, NodeId>> seeds, AtZeros at_zeros)
+{
+    return ForwardSweep(graph, outputs, at_zeros).along(seeds);
+}
+
 } // namespace
 
 std::vector<NodeId> directional(Graph& graph, std::span<const NodeId> outputs,
                                 std::span<const std::pair<NodeId, NodeId>> seeds)
 {
-    const auto nodes = reachable(graph, outputs);
-    const NodeId zero = graph.constant(0);
-    std::vector<NodeId> tangents(nodes.empty() ? 0 : std::size_t{nodes.back()} + 1, zero);
-    std::vector<NodeId> inputs;
-    for (const auto& [input, tangent] : seeds) inputs.push_back(input);
-    const auto active = dependent_nodes(graph, nodes, inputs);
-    std::map<NodeId, std::vector<NodeId>> solutions;
-    for (const auto& [input, tangent] : seeds)
-        if (input < tangents.size()) tangents[input] = tangent;
-    for (const NodeId id : nodes) {
-        if (!active[id] || std::ranges::find(inputs, id) != inputs.end()) continue;
-        const Op op = graph.op(id);
-        if (op == Op::solve)
-            solutions.emplace(id, solve_tangent(graph, system_of(graph, id), tangents));
-        else if (op == Op::component)
-            tangents[id] = solutions.at(graph.operands(id)[0])[graph.payload(id)];
-        else if (op != Op::factor)
-            tangents[id] = node_tangent(graph, id, tangents);
-    }
-    std::vector<NodeId> result;
-    for (const NodeId output : outputs) result.push_back(tangents[output]);
-    return result;
+    return directional(graph, outputs, seeds, AtZeros::chain_rule);
+}
+
+std::vector<NodeId> directional_with_limits(Graph& graph, std::span<const NodeId> outputs,
+                                            std::span<const std::pair<NodeId, NodeId>> seeds)
+{
+    return directional(graph, outputs, seeds, AtZeros::limits);
 }
 
 std::vector<NodeId> gradient(Graph& graph, NodeId output, std::span<const NodeId> inputs)
 {
     const NodeId roots[] = {output};
     const auto nodes = reachable(graph, roots);
+    // An input that is itself an inner node (a named quantity) keeps its adjoint and passes nothing on.
+    std::vector<bool> kept(std::size_t{output} + 1, false);
+    for (const NodeId input : inputs)
+        if (input <= output) kept[input] = true;
     ReverseSweep sweep(graph, dependent_nodes(graph, nodes, inputs));
     sweep.seed(output);
-    // An input that is itself an inner node (a named quantity) keeps its adjoint and passes nothing on.
     for (std::size_t k = nodes.size(); k-- > 0;)
-        if (std::ranges::find(inputs, nodes[k]) == inputs.end()) sweep.visit(nodes[k]);
+        if (!kept[nodes[k]]) sweep.visit(nodes[k]);
     std::vector<NodeId> result;
     for (const NodeId input : inputs) result.push_back(sweep.adjoint(input));
     return result;
@@ -187,15 +270,33 @@ std::vector<NodeId> joined_rows(const std::vector<std::vector<NodeId>>& rows)
     return entries;
 }
 
-std::vector<std::vector<NodeId>> jacobian(Graph& graph, std::span<const NodeId> outputs, std::span<const NodeId> inputs)
+namespace {
+
+std::vector<std::vector<NodeId>> jacobian(Graph& graph, std::span<const NodeId> outputs, std::span<const NodeId> inputs,
+                                          AtZeros at_zeros)
 {
     std::vector<std::vector<NodeId>> result(outputs.size());
+    const NodeId one = graph.constant(1);
+    ForwardSweep sweep(graph, outputs, at_zeros);
     for (const NodeId input : inputs) {
-        const std::pair<NodeId, NodeId> seed[] = {{input, graph.constant(1)}};
-        const auto column = directional(graph, outputs, seed);
+        const std::pair<NodeId, NodeId> seed[] = {{input, one}};
+        const auto column = sweep.along(seed);
         for (std::size_t r = 0; r < outputs.size(); ++r) result[r].push_back(column[r]);
     }
     return result;
+}
+
+} // namespace
+
+std::vector<std::vector<NodeId>> jacobian(Graph& graph, std::span<const NodeId> outputs, std::span<const NodeId> inputs)
+{
+    return jacobian(graph, outputs, inputs, AtZeros::chain_rule);
+}
+
+std::vector<std::vector<NodeId>> jacobian_with_limits(Graph& graph, std::span<const NodeId> outputs,
+                                                      std::span<const NodeId> inputs)
+{
+    return jacobian(graph, outputs, inputs, AtZeros::limits);
 }
 
 } // namespace lagen

@@ -2,6 +2,7 @@
 /// Sums, products, quotients and integer powers, with their local rules. Every rule is exact in floating point too, or
 /// folds exact constants.
 #include "graph/core/graph.hpp"
+#include "graph/core/special_values.hpp"
 
 #include <algorithm>
 
@@ -20,19 +21,6 @@ bool foldable(const Graph& graph, NodeId a, NodeId b)
 bool is_negative(const Graph& graph, NodeId id)
 {
     return graph.is_constant(id) && sgn(graph.value(id)) < 0;
-}
-
-/// value^exponent, exponent != 0.
-Rational exact_power(const Rational& value, std::int64_t exponent)
-{
-    const auto n = static_cast<unsigned long>(exponent < 0 ? -exponent : exponent);
-    mpz_class numerator;
-    mpz_class denominator;
-    mpz_pow_ui(numerator.get_mpz_t(), value.get_num_mpz_t(), n);
-    mpz_pow_ui(denominator.get_mpz_t(), value.get_den_mpz_t(), n);
-    Rational result = exponent < 0 ? Rational(denominator, numerator) : Rational(numerator, denominator);
-    result.canonicalize();
-    return result;
 }
 
 } // namespace
@@ -105,6 +93,11 @@ NodeId Graph::divide(NodeId a, NodeId b)
     if (is_negative(*this, a)) return negate(divide(constant(Rational(-value(a))), b));
     if (ops_[a] == Op::negate) return negate(divide(operands(a)[0], b));
     if (ops_[b] == Op::negate) return negate(divide(a, operands(b)[0]));
+    // 0/b is 0 where it stands alone, and so it is as a choice.
+    if (ops_[a] == Op::select && (is_zero(operands(a)[1]) || is_zero(operands(a)[2]))) {
+        const NodeId of[] = {operands(a)[0], operands(a)[1], operands(a)[2]};
+        return select(of[0], divide(of[1], b), divide(of[2], b));
+    }
     // Both overflow where their quotient does not.
     if (ops_[a] == Op::sinh && ops_[b] == Op::cosh && operands(a)[0] == operands(b)[0])
         return apply(Op::tanh, operands(a)[0]);
@@ -121,12 +114,14 @@ NodeId Graph::power(NodeId a, int exponent)
     const auto magnitude = static_cast<std::size_t>(exponent < 0 ? -std::int64_t{exponent} : std::int64_t{exponent});
     if (is_zero(a) || is_one(a)) return a;
     if (is_constant(a) && bits_of(value(a)) <= folded_bits / magnitude)
-        return constant(exact_power(value(a), exponent));
+        return constant(*rules::exact_power(value(a), exponent, folded_bits));
     if (ops_[a] == Op::negate) {
         const NodeId positive = power(operands(a)[0], exponent);
         return exponent % 2 == 0 ? positive : negate(positive);
     }
     if (ops_[a] == Op::sqrt && exponent % 2 == 0) return power(operands(a)[0], exponent / 2);
+    if (exponent % 2 == 0 && (ops_[a] == Op::divide || ops_[a] == Op::multiply))
+        if (const auto square = rules::special_square(*this, a)) return power(constant(*square), exponent / 2);
     if (ops_[a] == Op::power) {
         const std::int64_t product = std::int64_t{exponent} * static_cast<std::int32_t>(payloads_[a]);
         if (product > -INT32_MAX && product < INT32_MAX) return power(operands(a)[0], static_cast<int>(product));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "graph/core/exact_rules.hpp"
 
+#include "expression/special_angles.hpp"
+
 namespace lagen::rules {
 
 Exact exact_quotient(const Rational& a, const Rational& b)
@@ -21,9 +23,7 @@ Exact exact_power(const Rational& a, std::int64_t exponent, std::size_t most_bit
 
 Exact exact_root(const Rational& a)
 {
-    if (sgn(a) < 0 || mpz_perfect_square_p(a.get_num_mpz_t()) == 0 || mpz_perfect_square_p(a.get_den_mpz_t()) == 0)
-        return std::nullopt;
-    return Rational(sqrt(a.get_num()), sqrt(a.get_den()));
+    return rational_root(a);
 }
 
 Exact exact_at(const Rational& a, long point, long value)

@@ -3,6 +3,7 @@
 #include "expression/evaluate_stumpff.hpp"
 #include "graph/core/graph.hpp"
 #include "graph/core/operators.hpp"
+#include "graph/core/special_values.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -22,6 +23,7 @@ NodeId Graph::apply(Op op, NodeId a)
         throw InternalError(std::string("apply(op, a) wants a function of one operand, not ") + operator_of(op).name);
     if (is_constant(a))
         if (const auto known = exact_value(op, &value(a), 0, any_length)) return constant(*known);
+    if (const auto known = rules::special_value(*this, op, a)) return *known;
     if (op == Op::abs && (ops_[a] == Op::abs || ops_[a] == Op::sqrt)) return a;
     if (op == Op::abs && ops_[a] == Op::negate) return apply(op, operands(a)[0]);
     if (op == Op::sqrt && ops_[a] == Op::power && payloads_[a] == 2) return apply(Op::abs, operands(a)[0]);
@@ -52,6 +54,8 @@ NodeId Graph::apply(Op op, NodeId a, NodeId b)
         const Rational both[] = {value(a), value(b)};
         if (const auto known = exact_value(op, both, 0, any_length)) return constant(*known);
     }
+    if (op == Op::atan2)
+        if (const auto known = rules::special_angle(*this, a, b)) return *known;
     if ((op == Op::minimum || op == Op::maximum) && a == b) return a;
     const NodeId pair[] = {a, b};
     return intern(op, pair, 0);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 
 namespace lagen {
 namespace {
@@ -129,19 +130,24 @@ NodeId Graph::product(std::span<const NodeId> factors)
 std::vector<NodeId> reachable(const Graph& graph, std::span<const NodeId> roots)
 {
     if (roots.empty()) return {};
-    // Operands have smaller ids, so one downward sweep marks everything.
-    std::vector<bool> marked(std::size_t{*std::ranges::max_element(roots)} + 1, false);
-    for (const NodeId root : roots) marked[root] = true;
+    constexpr std::size_t bits = 64;
+    std::vector<std::uint64_t> marked(*std::ranges::max_element(roots) / bits + 1, 0);
+    const auto mark = [&](NodeId id) { marked[id / bits] |= std::uint64_t{1} << id % bits; };
+    for (const NodeId root : roots) mark(root);
+    // Operands have smaller ids, so one downward sweep marks everything; words without marks are passed over at once.
     std::size_t count = 0;
-    for (std::size_t id = marked.size(); id-- > 0;) {
-        if (!marked[id]) continue;
-        ++count;
-        for (const NodeId operand : graph.operands(static_cast<NodeId>(id))) marked[operand] = true;
-    }
+    for (std::size_t word = marked.size(); word-- > 0;)
+        for (std::uint64_t open = ~std::uint64_t{0}; (marked[word] & open) != 0;) {
+            const auto bit = static_cast<std::size_t>(std::bit_width(marked[word] & open)) - 1;
+            open = (std::uint64_t{1} << bit) - 1; // operands of the same word stand below
+            ++count;
+            for (const NodeId operand : graph.operands(static_cast<NodeId>(word * bits + bit))) mark(operand);
+        }
     std::vector<NodeId> result;
     result.reserve(count);
-    for (std::size_t id = 0; id < marked.size(); ++id)
-        if (marked[id]) result.push_back(static_cast<NodeId>(id));
+    for (std::size_t word = 0; word < marked.size(); ++word)
+        for (std::uint64_t rest = marked[word]; rest != 0; rest &= rest - 1)
+            result.push_back(static_cast<NodeId>(word * bits + static_cast<std::size_t>(std::countr_zero(rest))));
     return result;
 }
 

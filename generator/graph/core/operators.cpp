@@ -4,6 +4,7 @@
 
 #include "expression/evaluate_stumpff.hpp"
 #include "graph/core/operator_rows.hpp"
+#include "graph/core/special_values.hpp"
 
 #include <array>
 #include <cmath>
@@ -108,20 +109,21 @@ constexpr std::array table{
                 .domain = where_power,
                 .condition_operand = 0,
                 .vanishes_with_operand = true}),
-    arithmetic(OpKind::function, Op::real_power, "^", "power", 4,
-               {.spelling = "pow",
-                .notation = Notation::infix,
-                .arity = 2,
-                .weight = 40,
-                .latency = function_latency,
-                .value = LAGEN_VALUE(std::pow(x[0], x[1])),
-                .exact = LAGEN_EXACT(exact_at(x[0], 1, 1)),
-                .contribution = of_real_power,
-                .slope = slope_of_real_power,
-                .series = SeriesRule::real_power,
-                .smoothness = analytic,
-                .domain = where_real_power,
-                .condition_operand = 0}),
+    arithmetic(
+        OpKind::function, Op::real_power, "^", "power", 4,
+        {.spelling = "pow",
+         .notation = Notation::infix,
+         .arity = 2,
+         .weight = 40,
+         .latency = function_latency,
+         .value = LAGEN_VALUE(std::pow(x[0], x[1])),
+         .exact = [](const Rational* x, std::int32_t, std::size_t most) { return exact_real_power(x[0], x[1], most); },
+         .contribution = of_real_power,
+         .slope = slope_of_real_power,
+         .series = SeriesRule::real_power,
+         .smoothness = analytic,
+         .domain = where_real_power,
+         .condition_operand = 0}),
     function(Function::sqrt, Op::sqrt, analytic, where<Sense::nonnegative>,
              {.weight = 8,
               .latency = root_latency,

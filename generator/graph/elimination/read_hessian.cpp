@@ -10,8 +10,8 @@
 namespace lagen {
 namespace {
 
-/// The degree of a node in the variables; `none` where it is no polynomial of degree at most 2 as it is written.
-constexpr int none = -1;
+/// The degree of a node in the variables; `no_degree` where it is no polynomial of degree at most 2 as it is written.
+constexpr int no_degree = -1;
 
 class Reader {
   public:
@@ -50,22 +50,22 @@ class Reader {
         const auto of = [&](std::size_t k) { return degrees_[operands[k]]; };
         int greatest = 0;
         for (const NodeId operand : operands) {
-            if (degrees_[operand] == none) return none;
+            if (degrees_[operand] == no_degree) return no_degree;
             greatest = std::max(greatest, degrees_[operand]);
         }
         if (greatest == 0) return 0;
         switch (kind_of(graph_.op(id))) {
         case OpKind::sum: return greatest;
-        case OpKind::product: return of(0) + of(1) <= 2 ? of(0) + of(1) : none;
-        case OpKind::quotient: return of(1) == 0 ? of(0) : none;
-        case OpKind::power: return of(0) == 1 && graph_.payload(id) == 2 ? 2 : none;
+        case OpKind::product: return of(0) + of(1) <= 2 ? of(0) + of(1) : no_degree;
+        case OpKind::quotient: return of(1) == 0 ? of(0) : no_degree;
+        case OpKind::power: return of(0) == 1 && graph_.payload(id) == 2 ? 2 : no_degree;
         case OpKind::leaf:
         case OpKind::function:
         case OpKind::comparison:
         case OpKind::choice:
         case OpKind::system: break;
         }
-        return none;
+        return no_degree;
     }
 
     /// d value / d node for the nodes of degree 2, from the value down; H from the products of linear nodes.

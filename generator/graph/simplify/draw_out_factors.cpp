@@ -8,22 +8,22 @@ namespace lagen {
 namespace {
 
 /// What terms can share: an atom in the numerator or in the denominator, or the size of a rational coefficient.
-struct Candidate {
+struct SharedFactor {
     enum class Kind : std::uint8_t { divisor, factor, coefficient } kind = Kind::factor;
     AtomId atom = 0;
     Rational magnitude;
 
-    friend bool operator<(const Candidate& a, const Candidate& b)
+    friend bool operator<(const SharedFactor& a, const SharedFactor& b)
     {
         if (a.kind != b.kind) return a.kind < b.kind;
         return a.atom != b.atom ? a.atom < b.atom : a.magnitude < b.magnitude;
     }
 };
 
-std::vector<Candidate> candidates(const Term& term)
+std::vector<SharedFactor> candidates(const Term& term)
 {
-    using Kind = Candidate::Kind;
-    std::vector<Candidate> result;
+    using Kind = SharedFactor::Kind;
+    std::vector<SharedFactor> result;
     for (const Factor& factor : term.monomial)
         result.push_back({factor.exponent > 0 ? Kind::factor : Kind::divisor, factor.atom, 0});
     const Rational magnitude = abs(term.coefficient);
@@ -32,11 +32,11 @@ std::vector<Candidate> candidates(const Term& term)
 }
 
 /// The candidate of most terms, at least two; ties go to divisors, then to the earlier atom. False where there is none.
-bool best_candidate(const Polynomial& sum, Candidate& best)
+bool best_candidate(const Polynomial& sum, SharedFactor& best)
 {
-    std::map<Candidate, std::size_t> counts;
+    std::map<SharedFactor, std::size_t> counts;
     for (const Term& term : sum)
-        for (const Candidate& candidate : candidates(term)) ++counts[candidate];
+        for (const SharedFactor& candidate : candidates(term)) ++counts[candidate];
     std::size_t most = 1;
     for (const auto& [candidate, count] : counts)
         if (count > most) {
@@ -46,15 +46,15 @@ bool best_candidate(const Polynomial& sum, Candidate& best)
     return most > 1;
 }
 
-bool has(const Term& term, const Candidate& wanted)
+bool has(const Term& term, const SharedFactor& wanted)
 {
     const auto all = candidates(term);
-    return std::ranges::any_of(all, [&](const Candidate& c) { return !(c < wanted) && !(wanted < c); });
+    return std::ranges::any_of(all, [&](const SharedFactor& c) { return !(c < wanted) && !(wanted < c); });
 }
 
 Polynomial horner(Algebra& algebra, Polynomial sum)
 {
-    Candidate best;
+    SharedFactor best;
     while (sum.size() > 1 && best_candidate(sum, best)) {
         Polynomial inside;
         Polynomial outside;

@@ -2,6 +2,7 @@
 #include "graph/unknowns/implicit.hpp"
 
 #include "graph/calculus/differentiate.hpp"
+#include "graph/calculus/limits.hpp"
 #include "graph/core/operators.hpp"
 
 #include <algorithm>
@@ -80,13 +81,13 @@ Seeds seeds_through(Graph& graph, std::span<const ImplicitBlock> blocks, Seeds s
 std::vector<std::vector<NodeId>> jacobian_through(Graph& graph, std::span<const NodeId> outputs,
                                                   std::span<const NodeId> inputs, std::span<const ImplicitBlock> blocks)
 {
-    if (blocks.empty()) return jacobian(graph, outputs, inputs);
+    if (blocks.empty()) return jacobian_with_limits(graph, outputs, inputs);
     std::vector<Seeds> directions;
     for (const NodeId input : inputs) directions.push_back({{input, graph.constant(1)}});
     for (const ImplicitBlock& block : blocks) extend(graph, block, directions);
     std::vector<std::vector<NodeId>> result(outputs.size(), std::vector<NodeId>(inputs.size()));
     for (std::size_t column = 0; column < inputs.size(); ++column) {
-        const std::vector<NodeId> derivative = directional(graph, outputs, directions[column]);
+        const std::vector<NodeId> derivative = directional_with_limits(graph, outputs, directions[column]);
         for (std::size_t row = 0; row < outputs.size(); ++row) result[row][column] = derivative[row];
     }
     return result;

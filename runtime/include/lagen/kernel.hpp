@@ -83,7 +83,7 @@ template <class M>
 consteval SecondOrder second_order_of() noexcept
 {
     if constexpr (NamesSecondOrder<M>) {
-        static_assert(M::dimension % 2 == 0, "positions and as many rates");
+        static_assert(M::dimension < 0 || M::dimension % 2 == 0, "positions and as many rates");
         return M::second_order;
     } else {
         return SecondOrder::no;
@@ -204,6 +204,14 @@ concept HasParameters = requires(M& model)
 {
     M::parameter_names;
     model.parameter(std::size_t{0});
+};
+
+/// Inputs by number: input(k), k < input_names.size().
+template <class M>
+concept HasInputs = requires(M& model)
+{
+    M::input_names;
+    model.input(std::size_t{0});
 };
 
 template <class M>

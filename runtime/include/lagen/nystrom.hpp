@@ -52,6 +52,17 @@ class NystromStepper : public PairSteps<M, Tableau::order, Tableau::dense_stages
     {
     }
 
+    /// A model of run-time size says now of what order it is: not_separable where it is of another one.
+    status_t<Scalar> begin(const M& model, Real t, const State& s) noexcept
+    {
+        if constexpr (requires { model.order_of_system(); }) {
+            const SecondOrder found = model.order_of_system();
+            if (found == SecondOrder::no || (!general && found != SecondOrder::velocity_free))
+                return Status::not_separable;
+        }
+        return Base::begin(model, t, s);
+    }
+
     status_t<Scalar> attempt(const M& model, Real t, const State& s, Real h, State& s1) noexcept
     {
         dense_ready_ = false;

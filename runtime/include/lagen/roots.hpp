@@ -124,14 +124,18 @@ inline constexpr std::size_t per_register = std::is_same_v<T, double> || std::is
 #else
 template <class T>
 inline constexpr std::size_t per_register = 0;
+template <class T>
+void roots_of_register(T* x) noexcept = delete;
+template <class T>
+void reciprocals_of_register(T* x) noexcept = delete;
 #endif
 
-/// `work` on the registers 0 .. sizeof...(I) - 1 of x, written out: what is in registers stays there.
-template <class T, std::size_t K, class Work, std::size_t... I>
+/// `work` on the registers 0 .. sizeof...(part) - 1 of x, written out: what is in registers stays there.
+template <class T, std::size_t K, class Work, std::size_t... part>
 [[gnu::always_inline]] inline void on_registers([[maybe_unused]] std::array<T, K>& x, [[maybe_unused]] Work work,
-                                                std::index_sequence<I...>) noexcept
+                                                std::index_sequence<part...>) noexcept
 {
-    (work(&x[I * per_register<T>]), ...);
+    (work(&x[part * per_register<T>]), ...);
 }
 
 } // namespace detail

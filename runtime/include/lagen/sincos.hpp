@@ -9,7 +9,8 @@
 /// (k_sin.c, k_cos.c: Copyright (C) 1993 by Sun Microsystems, Inc. All rights reserved. Developed at SunSoft, a Sun
 /// Microsystems, Inc. business. Permission to use, copy, modify, and distribute this software is freely granted,
 /// provided that this notice is preserved.) The error is below 0.87 ulp; beyond 2^17 the angle goes to std::sin and
-/// std::cos. float: the same in double with shorter polynomials, below 0.54 ulp.
+/// std::cos. float: the same in double with shorter polynomials, below 0.54 ulp; where the processor has no doubles, in
+/// whole numbers, as exact.
 #pragma once
 
 #include "lagen/requirements.hpp"
@@ -21,6 +22,13 @@
 #include <cstdint>
 #include <type_traits>
 #include <utility>
+
+// Whether each operation of a double is a call, as on a Cortex-M4F.
+#if (defined(__arm__) && !(defined(__ARM_FP) && (__ARM_FP & 8))) || defined(__xtensa__) ||                             \
+    (defined(__riscv) && !(defined(__riscv_flen) && __riscv_flen >= 64))
+#define LAGEN_DOUBLES_ARE_CALLS
+#include "lagen/single_sincos.hpp"
+#endif
 
 namespace lagen {
 
@@ -198,13 +206,13 @@ template <class T, std::size_t K>
     }
 }
 
-/// Angles 0 .. sizeof...(I) * widest_lanes - 1, written out: what is in registers stays there.
-template <class T, std::size_t K, std::size_t... I>
+/// Angles 0 .. sizeof...(part) * widest_lanes - 1, written out: what is in registers stays there.
+template <class T, std::size_t K, std::size_t... part>
 [[gnu::always_inline]] inline double sincos_full([[maybe_unused]] const std::array<T, K>& x,
                                                  [[maybe_unused]] SinesCosines<T, K>& result,
-                                                 std::index_sequence<I...>) noexcept
+                                                 std::index_sequence<part...>) noexcept
 {
-    return (0.0 + ... + sincos_lanes<widest_lanes>(x, I * widest_lanes, result));
+    return (0.0 + ... + sincos_lanes<widest_lanes>(x, part * widest_lanes, result));
 }
 
 /// A whole number of full vectors, then the rest in the narrowest that holds it.
@@ -212,6 +220,16 @@ template <class T, std::size_t K>
 [[gnu::always_inline]] inline SinesCosines<T, K> sincos_vectors(const std::array<T, K>& x) noexcept
 {
     SinesCosines<T, K> result;
+#if defined(LAGEN_DOUBLES_ARE_CALLS)
+    if constexpr (std::is_same_v<T, float>) {
+        for (std::size_t k = 0; k < K; ++k) {
+            const SingleSinCos both = single_sincos(x[k]);
+            result.sines[k] = both.sine;
+            result.cosines[k] = both.cosine;
+        }
+        return result;
+    }
+#endif
     double size = sincos_full(x, result, std::make_index_sequence<K / widest_lanes>{});
     constexpr std::size_t full = K / widest_lanes * widest_lanes;
     constexpr std::size_t rest = K - full;

@@ -19,7 +19,9 @@ struct DriveArguments {
     std::optional<double> start, end, step, relative, absolute, interval;
     std::optional<std::size_t> max_steps, samples, every, branch;
     bool from_arrow = false;
-    std::string at_file, at_event, inputs, report, events, format = "csv";
+    std::optional<std::vector<double>> at; ///< times of rows
+    std::vector<double> input_rows;        ///< t and the inputs, one row after another
+    std::string at_event, report, events, format = "csv";
     std::optional<std::string> columns;
 };
 
@@ -68,6 +70,26 @@ inline Complaint read_numbers(const std::string& key, const std::string& text, s
     return {};
 }
 
+/// The numbers of a file, separated by white space or commas.
+inline Complaint read_times(const std::string& path, std::vector<double>& times, const std::string& key = "--at-file")
+{
+    std::FILE* file = std::fopen(path.c_str(), "r");
+    if (file == nullptr) return key + ": \"" + path + "\" could not be opened";
+    std::string text;
+    char buffer[4096];
+    for (std::size_t got = 0; (got = std::fread(buffer, 1, sizeof buffer, file)) > 0;) text.append(buffer, got);
+    std::fclose(file);
+    const char* separators = ", \t\r\n";
+    for (std::size_t at = text.find_first_not_of(separators); at != std::string::npos;) {
+        const std::size_t end = text.find_first_of(separators, at);
+        const auto value = read_number(text.substr(at, end == std::string::npos ? end : end - at));
+        if (!value) return key + ": \"" + path + "\" holds something that is not a finite number";
+        times.push_back(*value);
+        at = end == std::string::npos ? end : text.find_first_not_of(separators, end);
+    }
+    return {};
+}
+
 inline Complaint read_argument(const std::string& key, const std::string& text, DriveArguments& into)
 {
     const auto number = [&](std::optional<double>& target) -> Complaint {
@@ -92,9 +114,9 @@ inline Complaint read_argument(const std::string& key, const std::string& text, 
     if (key == "--branch") return count(into.branch);
     if (key == "--from" && text == "arrow") return into.from_arrow = true, Complaint{};
     if (key == "--from") return "--from: \"" + text + "\" is not arrow";
-    if (key == "--at-file") return into.at_file = text, Complaint{};
+    if (key == "--at-file") return read_times(text, into.at.emplace());
     if (key == "--at-event") return into.at_event = text, Complaint{};
-    if (key == "--inputs") return into.inputs = text, Complaint{};
+    if (key == "--inputs") return read_times(text, into.input_rows, key);
     if (key == "--report") return into.report = text, Complaint{};
     if (key == "--events") return into.events = text, Complaint{};
     if (key == "--columns") return into.columns = text, Complaint{};
@@ -140,26 +162,6 @@ inline std::vector<double> spaced_times(double start, double end, double interva
     else
         times.push_back(end);
     return times;
-}
-
-/// The numbers of a file, separated by white space or commas.
-inline Complaint read_times(const std::string& path, std::vector<double>& times, const std::string& key = "--at-file")
-{
-    std::FILE* file = std::fopen(path.c_str(), "r");
-    if (file == nullptr) return key + ": \"" + path + "\" could not be opened";
-    std::string text;
-    char buffer[4096];
-    for (std::size_t got = 0; (got = std::fread(buffer, 1, sizeof buffer, file)) > 0;) text.append(buffer, got);
-    std::fclose(file);
-    const char* separators = ", \t\r\n";
-    for (std::size_t at = text.find_first_not_of(separators); at != std::string::npos;) {
-        const std::size_t end = text.find_first_of(separators, at);
-        const auto value = read_number(text.substr(at, end == std::string::npos ? end : end - at));
-        if (!value) return key + ": \"" + path + "\" holds something that is not a finite number";
-        times.push_back(*value);
-        at = end == std::string::npos ? end : text.find_first_not_of(separators, end);
-    }
-    return {};
 }
 
 /// Times must not run against the direction of the run: rows are written once, on the way.

@@ -50,6 +50,7 @@
 ///                         figures.hpp and where it first was more than 1e-3 of that ("nan" where there is none).
 ///                         balance: the energy less the work, which is the integral of the power up to the end
 ///   [manifold=DISTANCE,T] the largest distance from where the constraints hold, to first order, and where that was
+///   [below=LANE:MOST]     one line a lane that moved and never exceeded --absolute, with its largest |s_i|
 ///   [branches=d,d,..]     distances of the arrows that are found with the momenta of a discrete start: with --branch,
 ///                         and where no step leads on (no_solution, branch_lost, newton_diverged) from momenta
 ///   [others=d,d,..]       of those with the momenta of the step that failed, from the arrow before
@@ -63,6 +64,7 @@
 #include "lagen_run/arguments.hpp"
 #include "lagen_run/branches.hpp"
 #include "lagen_run/held_inputs.hpp"
+#include "lagen_run/model_parts.hpp"
 #include "lagen_run/record.hpp"
 
 #include <chrono>
@@ -84,14 +86,6 @@ extern "C" inline void lagen_drive_interrupt(int)
     drive_interrupted = 1;
 }
 
-/// How many names an optional array has; `names(k)` only where it has any.
-template <class M>
-constexpr std::size_t observable_count() noexcept
-{
-    if constexpr (requires { M::observables_names; }) return M::observables_names.size();
-    return 0;
-}
-
 /// Everything made of the arguments that needs the model.
 template <class M>
 struct DrivePlan {
@@ -102,25 +96,25 @@ struct DrivePlan {
     HeldInputs inputs;
     std::vector<EventRequest<double, typename M::State>> events;
     std::vector<std::string> event_names;
-    std::vector<Column> columns;
+    std::vector<DriveColumn> columns;
 };
 
 template <class M>
 Complaint plan_values(const DriveArguments& given, DrivePlan<M>& plan)
 {
-    if (given.initial.size() != static_cast<std::size_t>(M::dimension))
-        return "--initial: " + std::to_string(given.initial.size()) + " numbers, " + std::to_string(M::dimension) +
+    const auto lanes = static_cast<std::size_t>(lane_count(plan.model));
+    if (given.initial.size() != lanes)
+        return "--initial: " + std::to_string(given.initial.size()) + " numbers, " + std::to_string(lanes) +
                " are required";
+    plan.initial.resize(static_cast<Eigen::Index>(lanes));
     for (std::size_t i = 0; i < given.initial.size(); ++i)
         plan.initial[static_cast<Eigen::Index>(i)] = given.initial[i];
     if (given.parameters.empty()) return {};
-    std::size_t count = 0;
-    if constexpr (requires { M::parameter_names; }) count = M::parameter_names.size();
+    const std::size_t count = parameters_of(plan.model).size();
     if (given.parameters.size() != count)
         return "--parameters: " + std::to_string(given.parameters.size()) + " numbers, " + std::to_string(count) +
                " are required";
-    if constexpr (requires { plan.model.parameter(std::size_t{0}); })
-        for (std::size_t k = 0; k < count; ++k) plan.model.parameter(k) = given.parameters[k];
+    for (std::size_t k = 0; k < count; ++k) set_parameter(plan.model, k, given.parameters[k]);
     return {};
 }
 
@@ -132,9 +126,9 @@ Complaint plan_times(const DriveArguments& given, DrivePlan<M>& plan)
     if (given.every) return *given.every > 0 ? Complaint{} : "--every: a positive number of steps is required";
     if (DiscreteMotion<M>) return "--every: the rows of a discrete motion are at its steps";
     if (!given.at_event.empty()) return plan.times.clear(), Complaint{};
-    if (!given.at_file.empty()) {
-        Complaint complaint = read_times(given.at_file, plan.times);
-        return complaint.empty() ? check_order(plan.times, plan.span.end < plan.span.start) : complaint;
+    if (given.at) {
+        plan.times = *given.at;
+        return check_order(plan.times, plan.span.end < plan.span.start);
     }
     if (given.interval) {
         if (!(*given.interval > 0)) return "--interval: " + number_text(*given.interval) + " is not positive";
@@ -154,13 +148,14 @@ template <class M>
 Complaint plan_columns(const DriveArguments& given, DrivePlan<M>& plan)
 {
     if (!given.columns) {
-        for (Eigen::Index i = 0; i < M::dimension; ++i) plan.columns.push_back({false, i});
+        for (Eigen::Index i = 0; i < lane_count(plan.model); ++i) plan.columns.push_back({false, i});
         return {};
     }
     if (*given.columns == "-") return {};
     for (const std::string& text : split(*given.columns, ',')) {
         const bool observable = !text.empty() && text[0] == 'o';
-        const std::size_t count = observable ? observable_count<M>() : static_cast<std::size_t>(M::dimension);
+        const auto count =
+            observable ? observables_of(plan.model).size() : static_cast<std::size_t>(lane_count(plan.model));
         const auto index = text.empty() || (text[0] != 's' && !observable) ? std::nullopt : read_count(text.substr(1));
         if (!index || *index >= count)
             return "--columns: \"" + text + "\" is neither a state lane nor an observable of the model";
@@ -183,11 +178,11 @@ Complaint plan_event(const std::string& text, DrivePlan<M>& plan)
     const auto count = read_count(parts.back());
     EventRequest<double, typename M::State> request;
     bool known = false;
-    if constexpr (HasEvents<M>)
-        for (std::size_t k = 0; k < M::events_names.size() && !known; ++k) {
-            known = name == M::events_names[k];
-            request.index = k;
-        }
+    const Names events = events_of(plan.model);
+    for (std::size_t k = 0; k < events.size() && !known; ++k) {
+        known = name == events[k];
+        request.index = k;
+    }
     if (!known || !count || *count == 0 || (stop != "0" && stop != "1")) return wrong;
     if (direction == "rising")
         request.direction = Crossing::rising;
@@ -212,8 +207,8 @@ Complaint plan_crossings(const DriveArguments& given, DrivePlan<M>& plan)
         plan.events[k].row = plan.event_names[k] == given.at_event;
         known = known || plan.events[k].row;
         if constexpr (HasJumps<M>)
-            for (std::size_t j = 0; j < M::jumps_names.size(); ++j)
-                if (plan.event_names[k] == M::jumps_names[j])
+            for (std::size_t j = 0; j < jumps_of(plan.model).size(); ++j)
+                if (plan.event_names[k] == jumps_of(plan.model)[j])
                     plan.events[k].jump = [&model = plan.model, j](double t, const typename M::State& s) {
                         return typename M::State(model.jumps(t, s).col(static_cast<Eigen::Index>(j)));
                     };
@@ -238,12 +233,21 @@ Complaint plan_method(const DriveArguments& given, Method& method)
     return {};
 }
 
+/// The absolute tolerance; 0 of fixed steps.
+template <class Method>
+double absolute_of(const Method& method) noexcept
+{
+    if constexpr (requires { method.absolute; }) return method.absolute;
+    return 0;
+}
+
 template <class M, class Method>
 Complaint make_plan(const DriveArguments& given, DrivePlan<M>& plan, Method& method)
 {
     Complaint complaint = plan_values(given, plan);
     if (complaint.empty()) complaint = plan_times(given, plan);
-    if (complaint.empty()) complaint = plan_inputs<M>(given.inputs, plan.span, plan.inputs);
+    if (complaint.empty())
+        complaint = plan_inputs(given.input_rows, inputs_of(plan.model).size(), plan.span, plan.inputs);
     if (complaint.empty()) complaint = plan_columns(given, plan);
     if (complaint.empty()) complaint = plan_method<M>(given, method);
     for (const std::string& event : split(given.events, ','))
@@ -295,6 +299,30 @@ inline int complain(const std::string& complaint, int code)
     return code;
 }
 
+/// Integrates what the plan asks for and writes the rows; answers the report that the top of the file describes.
+template <class M, class Method>
+std::string run_plan(DrivePlan<M>& plan, const Method& method, const DriveArguments& given, const RowSink& rows,
+                     const volatile std::sig_atomic_t* signal, Status& status)
+{
+    DriveRecord<M> record(plan.model, plan.columns, given.format == "binary", rows, given.every.value_or(0),
+                          absolute_of(method));
+    Branches<M> branches(plan.model, plan.span.start, given.from_arrow);
+    const Status start = branches.begin(plan.initial, given.branch);
+    Options<M> options{.at = plan.times, .events = plan.events, .signal = signal};
+    if (given.max_steps) options.max_steps = *given.max_steps;
+
+    const auto begin = std::chrono::steady_clock::now();
+    const auto run = start == Status::ok
+                         ? integrate_held(plan.inputs, plan.model, plan.initial, plan.span, method, options, record)
+                         : no_run<M>(plan.initial, plan.span.start, start);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    const bool ended_early = run.status() != Status::ok && run.steps > 0;
+    const bool fixed = given.at || !given.at_event.empty();
+    if (ended_early && !fixed && record.last_time() != run.t) record.row(run.t, run.state);
+    status = run.status();
+    return report_text(plan, run, record, seconds.count(), branches.report(run));
+}
+
 } // namespace detail
 
 /// The whole program; see the top of the file. Returns the exit code.
@@ -311,28 +339,16 @@ try {
 
     std::signal(SIGINT, detail::lagen_drive_interrupt);
     std::signal(SIGTERM, detail::lagen_drive_interrupt);
-    detail::DriveRecord<M> record(plan.model, plan.columns, given.format == "binary", stdout, given.every.value_or(0));
-    detail::Branches<M> branches(plan.model, plan.span.start, given.from_arrow);
-    const Status start = branches.begin(plan.initial, given.branch);
-    Options<M> options{.at = plan.times, .events = plan.events, .signal = &detail::drive_interrupted};
-    if (given.max_steps) options.max_steps = *given.max_steps;
-
-    const auto begin = std::chrono::steady_clock::now();
-    const auto run = start == Status::ok ? detail::integrate_held(plan.inputs, plan.model, plan.initial, plan.span,
-                                                                  method, options, record)
-                                         : detail::no_run<M>(plan.initial, plan.span.start, start);
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-    const bool ended_early = run.status() != Status::ok && run.steps > 0;
-    const bool fixed = !given.at_file.empty() || !given.at_event.empty();
-    if (ended_early && !fixed && record.last_time() != run.t) record.row(run.t, run.state);
-
+    Status status = Status::ok;
+    const std::string report = detail::run_plan(
+        plan, method, given, [](std::string_view row) { std::fwrite(row.data(), 1, row.size(), stdout); },
+        &detail::drive_interrupted, status);
     const bool rows_written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
     if (!rows_written) return detail::complain("the rows could not be written to standard output", 5);
-    const std::string report = detail::report_text(plan, run, record, seconds.count(), branches.report(run));
     if (!detail::write_report(given.report, report))
         return detail::complain("the report could not be written to \"" + given.report + "\"", 5);
-    if (run.status() == Status::interrupted) return 130;
-    return run ? 0 : 1;
+    if (status == Status::interrupted) return 130;
+    return is_success(status) ? 0 : 1;
 } catch (const std::exception& error) {
     return detail::complain(std::string("the scene cannot be integrated: ") + error.what(), 5);
 }

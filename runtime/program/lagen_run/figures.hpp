@@ -11,12 +11,13 @@
 
 #include "lagen/integrate/collocation.hpp"
 #include "lagen/kernel.hpp"
+#include "lagen_run/model_parts.hpp"
 #include "lagen_run/slope.hpp"
 #include "lagen_run/text.hpp"
 
 #include <algorithm>
-#include <array>
 #include <string>
+#include <vector>
 
 namespace lagen::detail {
 
@@ -25,9 +26,16 @@ class Figures {
   public:
     using State = typename M::State;
 
-    Figures()
+    /// Of the functions that the model has; memory is taken here.
+    explicit Figures(const M& model)
+        : follows_energy_(has_energy(model) || has_hamiltonian(model)), balances_(follows_energy_ && has_power(model)),
+          constraints_(constraints_of(model).size()),
+          watched_(constraints_ + invariants_of(model).size() + (follows_energy_ ? 1 : 0) + (balances_ ? 1 : 0)),
+          count_(watched_ + casimirs_of(model).size())
     {
-        for (Values* values : {&initial_, &most_t_, &size_, &moved_at_}) values->fill(nothing);
+        for (Values* values : {&initial_, &most_t_, &size_, &moved_at_}) values->assign(count_, nothing);
+        for (Values* values : {&reference_, &most_, &allowed_, &seen_}) values->assign(count_, 0.0);
+        means_.begin(count_);
     }
 
     void see(const M& model, double t, const State& s)
@@ -43,6 +51,7 @@ class Figures {
     template <int nodes, class Inside>
     void sum(const M& model, double t0, double h, const Inside& inside) requires(HasPower<M>)
     {
+        if (!balances_) return;
         static const auto rule = legendre_nodes<nodes, double>();
         for (std::size_t i = 0; i < nodes; ++i) {
             const double x = (1 + rule.first[i]) / 2;
@@ -55,8 +64,8 @@ class Figures {
     void jump(const M& model, double t, const State& from, const State& to)
     {
         const Values before = all_values(model, t, from), after = all_values(model, t, to);
-        for (std::size_t k = 0; k < count; ++k)
-            if (k + constraints < watched || k >= watched) reference_[k] += after[k] - before[k];
+        for (std::size_t k = 0; k < count_; ++k)
+            if (k + constraints_ < watched_ || k >= watched_) reference_[k] += after[k] - before[k];
     }
 
     /// The lines of the report that driver.hpp describes.
@@ -71,23 +80,17 @@ class Figures {
                 text += number_text(value) + ',';
             text += number_text(moved_at_[k++]) + '\n';
         };
-        if constexpr (HasEnergy<M>)
-            put("energy");
-        else if constexpr (HasHamiltonian<M>)
-            put("hamiltonian");
-        if constexpr (balance > 0) {
+        if (follows_energy_) put(has_energy(model) ? "energy" : "hamiltonian");
+        if (balances_) {
             if (sums_)
                 put("balance"), text += "work=" + number_text(work_) + '\n';
             else
                 ++k;
         }
-        if constexpr (HasInvariants<M>)
-            for (const char* name : M::invariants_names) put(std::string("invariant:") + name);
-        if constexpr (HasConstraints<M>)
-            for (const char* name : M::constraints_names) put(std::string("constraint:") + name);
-        if constexpr (HasCasimirs<M>)
-            for (const char* name : M::casimirs_names) put(std::string("casimir:") + name);
-        if constexpr (constraints > 0)
+        for (const char* name : invariants_of(model)) put(std::string("invariant:") + name);
+        for (const char* name : constraints_of(model)) put(std::string("constraint:") + name);
+        for (const char* name : casimirs_of(model)) put(std::string("casimir:") + name);
+        if (constraints_ > 0)
             text += "manifold=" + number_text(distance_from_manifold(model)) + ',' + number_text(off_t_) + '\n';
         return text;
     }
@@ -97,29 +100,9 @@ class Figures {
     static constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
     static constexpr double part = 1e-3; ///< of a function's size: what moves more is lost
 
-    template <class Names>
-    static consteval std::size_t number_of(const Names& names)
-    {
-        return names.size();
-    }
-    static constexpr std::size_t constraints = [] {
-        if constexpr (HasConstraints<M>) return number_of(M::constraints_names);
-        return std::size_t{0};
-    }();
-    static constexpr std::size_t watched = [] {
-        std::size_t number = constraints;
-        if constexpr (HasEnergy<M> || HasHamiltonian<M>) number += 1;
-        if constexpr (HasPower<M>) number += 1;
-        if constexpr (HasInvariants<M>) number += number_of(M::invariants_names);
-        return number;
-    }();
-    static constexpr std::size_t count = [] {
-        if constexpr (HasCasimirs<M>) return watched + number_of(M::casimirs_names);
-        return watched;
-    }();
-    /// The place of the energy less the work, behind the energy; 0: there is none.
-    static constexpr std::size_t balance = HasPower<M> ? 1 : 0;
-    using Values = std::array<double, count>;
+    /// The place of the energy less the work, behind the energy.
+    static constexpr std::size_t balance = 1;
+    using Values = std::vector<double>;
 
     static void visit_column(const auto& column, const auto& take)
     {
@@ -129,29 +112,34 @@ class Figures {
     static double energy_of(const M& model, double t, const State& s)
     {
         if constexpr (HasEnergy<M>)
-            return static_cast<double>(model.energy(t, s));
-        else
-            return static_cast<double>(model.hamiltonian(t, s));
+            if (has_energy(model)) return static_cast<double>(model.energy(t, s));
+        if constexpr (HasHamiltonian<M>) return static_cast<double>(model.hamiltonian(t, s));
+        return nothing;
     }
 
-    static void visit_watched(const M& model, double t, const State& s, double work, const auto& take)
+    void visit_watched(const M& model, double t, const State& s, double work, const auto& take) const
     {
-        if constexpr (HasEnergy<M> || HasHamiltonian<M>) {
+        if (follows_energy_) {
             const double energy = energy_of(model, t, s);
             take(energy);
-            if constexpr (HasPower<M>) take(energy - work);
+            if (balances_) take(energy - work);
         }
         if constexpr (HasInvariants<M>) visit_column(model.invariants(t, s), take);
         if constexpr (HasConstraints<M>) visit_column(model.constraints(t, s), take);
     }
 
-    static Values all_values(const M& model, double t, const State& s, double work = 0)
+    void put_values(const M& model, double t, const State& s, double work, Values& values) const
     {
-        Values values;
         std::size_t next = 0;
         const auto put = [&](double value) { values[next++] = value; };
         visit_watched(model, t, s, work, put);
         if constexpr (HasCasimirs<M>) visit_column(model.casimirs(t, s), put);
+    }
+
+    [[nodiscard]] Values all_values(const M& model, double t, const State& s) const
+    {
+        Values values(count_);
+        put_values(model, t, s, 0, values);
         return values;
     }
 
@@ -161,9 +149,9 @@ class Figures {
         start_ = t;
         start_state_ = s;
         initial_ = reference_ = all_values(model, t, s);
-        for (std::size_t k = watched - constraints; k < watched; ++k) reference_[k] = 0;
-        for (std::size_t k = 0; k < count; ++k) allowed_[k] = part * std::abs(reference_[k]);
-        most_t_.fill(t);
+        for (std::size_t k = watched_ - constraints_; k < watched_; ++k) reference_[k] = 0;
+        for (std::size_t k = 0; k < count_; ++k) allowed_[k] = part * std::abs(reference_[k]);
+        std::ranges::fill(most_t_, t);
     }
 
     /// Function k has this value at t.
@@ -174,7 +162,7 @@ class Figures {
         most_[k] = distance;
         most_t_[k] = t;
         // What a balance may have lost is a part of what came and went, too.
-        if (balance > 0 && k == balance && distance <= part * most_[0]) return;
+        if (balances_ && k == balance && distance <= part * most_[0]) return;
         if (!(distance <= allowed_[k])) lose(model, k, t);
     }
 
@@ -194,19 +182,21 @@ class Figures {
 
     [[gnu::noinline]] void look(const M& model, double t, const State& s)
     {
-        Values values = all_values(model, t, s, work_);
-        for (std::size_t k = watched; k < count; ++k) watch(model, k, t, values[k]);
-        for (std::size_t k = 0; k < count; ++k) values[k] -= reference_[k];
+        Values& values = seen_;
+        put_values(model, t, s, work_, values);
+        for (std::size_t k = watched_; k < count_; ++k) watch(model, k, t, values[k]);
+        for (std::size_t k = 0; k < count_; ++k) values[k] -= reference_[k];
         means_.see(t - start_, values);
-        if constexpr (constraints > 0) {
+        if (constraints_ > 0) {
             double square = 0;
-            for (std::size_t k = watched - constraints; k < watched; ++k) square += values[k] * values[k];
+            for (std::size_t k = watched_ - constraints_; k < watched_; ++k) square += values[k] * values[k];
             if (!(square <= off_)) off_ = square, off_t_ = t, off_state_ = s;
         }
     }
 
     /// df_k/ds_i times `length`, by central differences at (t, s); 0 where that is no finite number.
-    static double change(const M& model, std::size_t k, double t, const State& s, Eigen::Index i, double length)
+    [[nodiscard]] double change(const M& model, std::size_t k, double t, const State& s, Eigen::Index i,
+                                double length) const
     {
         constexpr double step = 6e-6; // the third root of epsilon
         State left = s, right = s;
@@ -237,12 +227,12 @@ class Figures {
     {
         const Values values = all_values(model, off_t_, off_state_);
         const Eigen::Index lanes = off_state_.size();
-        const auto number = static_cast<Eigen::Index>(constraints);
+        const auto number = static_cast<Eigen::Index>(constraints_);
         Eigen::MatrixXd rows(number, lanes); // orthonormal in the end, with what belongs to them on the right
         Eigen::VectorXd right(number);
         double square = 0;
         for (Eigen::Index c = 0; c < number; ++c) {
-            const std::size_t k = watched - constraints + static_cast<std::size_t>(c);
+            const std::size_t k = watched_ - constraints_ + static_cast<std::size_t>(c);
             for (Eigen::Index i = 0; i < lanes; ++i) {
                 const double lane = std::max(std::abs(off_state_[i]), 1e-3);
                 rows(c, i) = change(model, k, off_t_, off_state_, i, lane) / lane;
@@ -263,11 +253,13 @@ class Figures {
         return std::sqrt(square);
     }
 
+    bool follows_energy_, balances_;            ///< the energy or the Hamiltonian; and there is a power
+    std::size_t constraints_, watched_, count_; ///< the last of those that are watched; looked at at every step; all
     bool begun_ = false, sums_ = false;
     double start_ = 0, work_ = 0;
     State start_state_;
-    Values initial_{}, reference_{}, most_{}, most_t_{}, allowed_{}, size_{}, moved_at_{};
-    BatchMeans<count> means_;
+    Values initial_, reference_, most_, most_t_, allowed_, size_, moved_at_, seen_;
+    BatchMeans means_;
     double off_ = -1, off_t_ = nothing; ///< the largest sum of squares of the constraints, and where it was
     State off_state_;
 };

@@ -6,6 +6,7 @@
 
 #include "lagen/integrate.hpp"
 #include "lagen_run/arguments.hpp"
+#include "lagen_run/model_parts.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -19,16 +20,12 @@ struct HeldInputs {
     std::vector<double> values; ///< of one row after another
 };
 
-template <class M>
-Complaint plan_inputs(const std::string& path, Interval<double> span, HeldInputs& inputs)
+/// From rows of t and `count` inputs.
+inline Complaint plan_inputs(const std::vector<double>& numbers, std::size_t count, Interval<double> span,
+                             HeldInputs& inputs)
 {
-    if (path.empty()) return {};
-    std::size_t count = 0;
-    if constexpr (requires { M::input_names; }) count = M::input_names.size();
-    std::vector<double> numbers;
-    const Complaint complaint = read_times(path, numbers, "--inputs");
-    if (!complaint.empty()) return complaint;
-    if (count == 0 || numbers.empty() || numbers.size() % (count + 1) != 0)
+    if (numbers.empty()) return {};
+    if (count == 0 || numbers.size() % (count + 1) != 0)
         return "--inputs: rows of t and " + std::to_string(count) + " inputs are required";
     for (std::size_t k = 0; k < numbers.size(); ++k)
         (k % (count + 1) == 0 ? inputs.times : inputs.values).push_back(numbers[k]);
@@ -71,9 +68,8 @@ Run<M> integrate_held(const HeldInputs& inputs, M& model, const typename M::Stat
         const auto behind = backward ? std::lower_bound(inputs.times.begin() + 1, inputs.times.end(), run.t)
                                      : std::upper_bound(inputs.times.begin(), inputs.times.end(), run.t);
         const auto row = static_cast<std::size_t>(behind - inputs.times.begin()) - 1;
-        if constexpr (requires { model.input(row); })
-            for (std::size_t k = 0; k < M::input_names.size(); ++k)
-                model.input(k) = inputs.values[row * M::input_names.size() + k];
+        const std::size_t count = inputs_of(model).size();
+        for (std::size_t k = 0; k < count; ++k) set_input(model, k, inputs.values[row * count + k]);
         double end = span.end;
         if (backward)
             end = std::max(end, row == 0 ? end : inputs.times[row]);

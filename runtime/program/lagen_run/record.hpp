@@ -4,21 +4,26 @@
 
 #include "lagen/integrate/options.hpp"
 #include "lagen_run/figures.hpp"
+#include "lagen_run/small_lanes.hpp"
 
 #include <cmath>
-#include <cstdio>
+#include <functional>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
 namespace lagen::detail {
 
 /// A column: state lane or entry of observables().
-struct Column {
+struct DriveColumn {
     bool observable = false;
     Eigen::Index index = 0;
 };
+
+/// Takes the rows of a run, one after another.
+using RowSink = std::function<void(std::string_view)>;
 
 /// The observer of a run: row(t, s) writes, operator() follows what should be constant.
 template <class M>
@@ -27,8 +32,11 @@ class DriveRecord {
     using State = typename M::State;
 
     /// `every`: rows at the start and behind every so many steps; 0 where row(t, s) is told of all of them.
-    DriveRecord(const M& model, std::vector<Column> columns, bool binary, std::FILE* out, std::size_t every = 0)
-        : model_(model), columns_(std::move(columns)), binary_(binary), out_(out), every_(every)
+    /// `absolute`: the tolerance of the method, or 0.
+    DriveRecord(const M& model, std::vector<DriveColumn> columns, bool binary, RowSink out, std::size_t every = 0,
+                double absolute = 0)
+        : model_(model), columns_(std::move(columns)), binary_(binary), out_(std::move(out)), every_(every),
+          figures_(model), small_(absolute)
     {
     }
 
@@ -36,15 +44,17 @@ class DriveRecord {
     {
         follow(t, s);
         last_time_ = t;
-        write(t, true);
+        line_.clear();
+        write(t);
         if constexpr (requires { model_.observables(t, s); }) {
             const auto observables = model_.observables(t, s);
-            for (const Column& column : columns_)
-                write(column.observable ? observables[column.index] : s[column.index], false);
+            for (const DriveColumn& column : columns_)
+                write(column.observable ? observables[column.index] : s[column.index]);
         } else {
-            for (const Column& column : columns_) write(s[column.index], false);
+            for (const DriveColumn& column : columns_) write(s[column.index]);
         }
-        if (!binary_) std::fputc('\n', out_);
+        if (!binary_) line_.back() = '\n';
+        out_(line_);
         ++rows_;
     }
 
@@ -54,6 +64,7 @@ class DriveRecord {
         follow(t, s);
         if (every_ > 0 && seen_++ % every_ == 0) row(t, s);
         figures_.see(model_, t, s);
+        small_.see(s);
     }
 
     void jump(double t, const State& from, const State& to) { figures_.jump(model_, t, from, to); }
@@ -79,7 +90,13 @@ class DriveRecord {
     [[nodiscard]] double last_time() const noexcept { return last_time_; }
 
     /// The lines of the report that this record knows.
-    [[nodiscard]] std::string report() const { return figures_.report(model_); }
+    [[nodiscard]] std::string report() const
+    {
+        std::string text = figures_.report(model_);
+        for (Eigen::Index i = 0; i < small_.size(); ++i)
+            if (small_.is_small(i)) text += "below=" + std::to_string(i) + ':' + number_text(small_.most(i)) + '\n';
+        return text;
+    }
 
   private:
     /// Rows and steps come in the order of time, so that what the model follows is continuous in the rows. A failure
@@ -89,23 +106,25 @@ class DriveRecord {
         if constexpr (Follows<M>) static_cast<void>(model_.follow(t, s));
     }
 
-    /// As append_number.
-    void write(double value, bool first)
+    /// A field and a comma; native doubles have none.
+    void write(double value)
     {
         if (binary_) {
-            std::fwrite(&value, sizeof value, 1, out_);
+            line_.append(reinterpret_cast<const char*>(&value), sizeof value);
             return;
         }
-        if (!first) std::fputc(',', out_);
-        if (std::isfinite(value)) std::fputs(number_text(value).c_str(), out_);
+        append_number(line_, value);
+        line_ += ',';
     }
 
     std::conditional_t<Follows<M>, M, const M&> model_; ///< a copy where it learns what it follows
-    std::vector<Column> columns_;
+    std::vector<DriveColumn> columns_;
     bool binary_;
-    std::FILE* out_;
+    RowSink out_;
+    std::string line_;
     std::size_t every_ = 0, seen_ = 0;
     Figures<M> figures_;
+    SmallLanes<State> small_;
     std::size_t rows_ = 0;
     double last_time_ = std::numeric_limits<double>::quiet_NaN();
 };

@@ -14,10 +14,13 @@
 /// `error` is this standard error times Student's 97.5 % quantile: nineteen times in twenty the slope is within it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <span>
+#include <vector>
 
 namespace lagen::detail {
 
@@ -34,18 +37,23 @@ struct Slope {
     return z * (1 + (z2 + 1) / (4 * n) + ((5 * z2 + 16) * z2 + 3) / (96 * n * n));
 }
 
-/// Of `count` functions at the same times.
-template <std::size_t count>
+/// Of several functions at the same times; memory is taken at the beginning.
 class BatchMeans {
   public:
+    void begin(std::size_t count)
+    {
+        open_.values.assign(count, 0);
+        means_.assign(most, open_);
+    }
+
     /// Whether the next values are to be seen.
     [[nodiscard]] bool wants() noexcept { return --left_ == 0; }
 
-    void see(double t, const std::array<double, count>& values) noexcept
+    void see(double t, std::span<const double> values) noexcept
     {
         left_ = stride_;
         open_.t += t;
-        for (std::size_t k = 0; k < count; ++k) open_.values[k] += values[k];
+        for (std::size_t k = 0; k < values.size(); ++k) open_.values[k] += values[k];
         if (++filled_ == size_) close();
     }
 
@@ -78,29 +86,32 @@ class BatchMeans {
     static constexpr std::size_t fewest = 8, most = 32, largest = 256;
     struct Batch {
         double t = 0;
-        std::array<double, count> values{};
+        std::vector<double> values;
     };
 
-    /// (a + b)/n
-    static Batch mean(const Batch& a, const Batch& b, double n) noexcept
+    /// to = (a + b)/n
+    static void mean(const Batch& a, const Batch& b, double n, Batch& to) noexcept
     {
-        Batch result{(a.t + b.t) / n, {}};
-        for (std::size_t k = 0; k < count; ++k) result.values[k] = (a.values[k] + b.values[k]) / n;
-        return result;
+        to.t = (a.t + b.t) / n;
+        for (std::size_t k = 0; k < to.values.size(); ++k) to.values[k] = (a.values[k] + b.values[k]) / n;
     }
 
     void close() noexcept
     {
-        means_[batches_++] = mean(open_, {}, static_cast<double>(size_));
-        open_ = {};
+        Batch& closed = means_[batches_++];
+        closed.t = open_.t / static_cast<double>(size_);
+        for (std::size_t k = 0; k < closed.values.size(); ++k)
+            closed.values[k] = open_.values[k] / static_cast<double>(size_);
+        open_.t = 0;
+        std::ranges::fill(open_.values, 0.0);
         filled_ = 0;
         if (batches_ < most) return;
-        for (std::size_t j = 0; j < most / 2; ++j) means_[j] = mean(means_[2 * j], means_[2 * j + 1], 2);
+        for (std::size_t j = 0; j < most / 2; ++j) mean(means_[2 * j], means_[2 * j + 1], 2, means_[j]);
         batches_ = most / 2;
         (size_ < largest ? size_ : stride_) *= 2;
     }
 
-    std::array<Batch, most> means_{};
+    std::vector<Batch> means_;
     Batch open_; ///< sums
     std::size_t batches_ = 0, size_ = 1, filled_ = 0, stride_ = 1, left_ = 1;
 };

@@ -14,7 +14,8 @@
 /// Standard input holds native doubles, for each trajectory
 ///   failure, parameters.., state lanes.., start, end, step, relative, absolute, interval, times..
 /// `failure` is 0, or a number that stands for the reason why there is nothing to integrate: then the line of the
-/// trajectory is "#" and that number. Standard output has a line for each trajectory, in their order: t of the last
+/// trajectory is "#" and that number. Standard output has a line for each trajectory, in their order: "<LANE>" of each
+/// lane that moved and never exceeded the absolute tolerance (no part of the row), t of the last
 /// good state, the columns there, for each event how often it happened and when it did last, for each column its least
 /// and largest value at accepted steps and rows, the status as to_text(Status). Numbers are shortest decimals; what is
 /// no finite number is an empty field. The bits are those of lagen_run/driver.hpp, whatever the number of threads. Exit
@@ -167,7 +168,7 @@ class Sweep {
                 const bool usable = sweep_.use(from, given_, row.plan, row.method);
                 (void)plan_crossings(given_, row.plan);
                 row.options = {.at = row.plan.times, .events = row.plan.events};
-                row.record.emplace(row.plan.model, row.plan.columns);
+                row.record.emplace(row.plan.model, row.plan.columns, absolute_of(row.method));
                 if (usable) return true;
                 Run<M> run;
                 run.outcome = Status::invalid_input;
@@ -230,6 +231,9 @@ class Sweep {
     {
         for (const std::size_t request : run.starts_on) ++starts_on_[request];
         std::string line;
+        const auto& small = record.small_lanes();
+        for (Eigen::Index i = 0; i < small.size(); ++i)
+            if (small.is_small(i)) line += '<' + std::to_string(i) + '>';
         append_number(line, run.t);
         for (const double value : record.values()) append_field(line, value);
         append_events(line, run);

@@ -14,31 +14,35 @@ class SweepRecord {
   public:
     using State = typename M::State;
 
-    SweepRecord(const M& model, const std::vector<Column>& columns)
-        : model_(model), columns_(columns), values_(columns.size(), nothing), least_(values_), most_(values_)
+    /// `absolute`: the tolerance of the method, or 0.
+    SweepRecord(const M& model, const std::vector<DriveColumn>& columns, double absolute = 0)
+        : model_(model), columns_(columns), values_(columns.size(), nothing), least_(values_), most_(values_),
+          small_(absolute)
     {
-        for (const Column& column : columns) observes_ = observes_ || column.observable;
+        for (const DriveColumn& column : columns) observes_ = observes_ || column.observable;
     }
 
     void row(double t, const State& s) { (*this)(t, s); }
     void operator()(double t, const State& s)
     {
         if constexpr (Follows<M>) static_cast<void>(model_.follow(t, s));
+        small_.see(s);
         if constexpr (requires { model_.observables(t, s); }) {
             if (observes_) {
                 const auto observables = model_.observables(t, s);
-                return see([&](const Column& column) {
+                return see([&](const DriveColumn& column) {
                     return column.observable ? observables[column.index] : s[column.index];
                 });
             }
         }
-        see([&](const Column& column) { return s[column.index]; });
+        see([&](const DriveColumn& column) { return s[column.index]; });
     }
 
     /// At the last step; NaN where there was none.
     [[nodiscard]] const std::vector<double>& values() const noexcept { return values_; }
     [[nodiscard]] const std::vector<double>& least() const noexcept { return least_; }
     [[nodiscard]] const std::vector<double>& most() const noexcept { return most_; }
+    [[nodiscard]] const SmallLanes<State>& small_lanes() const noexcept { return small_; }
 
   private:
     static constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
@@ -54,9 +58,10 @@ class SweepRecord {
     }
 
     std::conditional_t<Follows<M>, M, const M&> model_; ///< a copy where it learns what it follows
-    const std::vector<Column>& columns_;
+    const std::vector<DriveColumn>& columns_;
     bool observes_ = false;
     std::vector<double> values_, least_, most_;
+    SmallLanes<State> small_;
 };
 
 } // namespace lagen::detail

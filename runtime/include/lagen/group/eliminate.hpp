@@ -16,7 +16,7 @@ template <class S, int N, int K>
 {
     using std::abs;
     int sign = 1;
-    S scale[N];
+    Eigen::Matrix<S, N, 1> scale;
     for (int i = 0; i < N; ++i) {
         S most(0);
         for (int j = 0; j < N; ++j) most = abs(A(i, j)) > most ? S(abs(A(i, j))) : most;

@@ -27,6 +27,8 @@ class EventValues {
     {
     }
 
+    [[nodiscard]] const M& model() const noexcept { return model_; }
+
     void evaluate(Real t, const State& s, std::vector<Real>& values)
     {
         if constexpr (HasEvents<M> && !is_pack<Scalar>) {

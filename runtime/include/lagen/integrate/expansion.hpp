@@ -93,13 +93,14 @@ class Expansion {
     {
         if (!lane_of(functions.known, lane)) return false;
         const Number step = last * h / lane_of(unit, lane);
+        constexpr auto most = static_cast<std::size_t>(highest) + 1;
         for (std::size_t r = 0; r < functions.of[0].size(); ++r) {
-            std::array<Number, highest + 1> coefficients;
+            std::array<Number, most> coefficients;
             Number power = Number(1), total = Number(0);
             for (int k = 0; k <= order; ++k, power *= step)
                 total += coefficients[static_cast<std::size_t>(k)] = lane_of(functions.of[k][r], lane) * power;
             if (total - total != Number(0)) return false;
-            using Isolation = RootIsolation<Number, highest + 1>;
+            using Isolation = RootIsolation<Number, most>;
             Isolation::isolate(coefficients, static_cast<std::size_t>(order) + 1,
                                std::numeric_limits<Number>::epsilon() * Number(64),
                                [&](const Number& end) { found(Number(end * last)); });

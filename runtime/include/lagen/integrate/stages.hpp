@@ -81,9 +81,12 @@ template <auto& weights, std::size_t offset = 0, std::size_t count = weights.siz
           class Stages>
 [[gnu::always_inline]] inline void weighted_sum(const Time& h, const Stages& k, Column& out) noexcept
 {
-    for_lanes(out, [&]<int width>(Width<width>, Eigen::Index lane) {
-        store(out, lane, weighted_lanes<weights, offset, width>(h, k, lane, std::make_index_sequence<count>{}));
-    });
+    auto&& to = held(out);
+    const auto& slopes = held<first_weight<weights, offset, count>(), count>(k);
+    for_lanes(
+        out, [&]<int width>(Width<width>, Eigen::Index lane) __attribute__((always_inline)) {
+            store(to, lane, weighted_lanes<weights, offset, width>(h, slopes, lane, std::make_index_sequence<count>{}));
+        });
 }
 
 /// out = s + h sum_j weights[offset + j] k[j], j < count: of vectors in one pass without temporaries. (Measured: the
@@ -93,10 +96,15 @@ template <auto& weights, std::size_t offset, std::size_t count, class M, class S
                                               const Stages& k, typename M::State& out) noexcept
 {
     if constexpr (moves_by_sums<M>) {
-        for_lanes(s, [&]<int width>(Width<width>, Eigen::Index lane) {
-            const auto sum = weighted_lanes<weights, offset, width>(h, k, lane, std::make_index_sequence<count>{});
-            store(out, lane, load<width>(s, lane) + sum);
-        });
+        auto&& to = held(out);
+        auto&& from = held(s);
+        const auto& slopes = held<first_weight<weights, offset, count>(), count>(k);
+        for_lanes(
+            s, [&]<int width>(Width<width>, Eigen::Index lane) __attribute__((always_inline)) {
+                const auto sum =
+                    weighted_lanes<weights, offset, width>(h, slopes, lane, std::make_index_sequence<count>{});
+                store(to, lane, load<width>(from, lane) + sum);
+            });
     } else {
         tangent_t<M> delta;
         weighted_sum<weights, offset, count>(h, k, delta);

@@ -47,9 +47,9 @@ class EventWatch {
     /// Every request has a function: an index within the model's events, or its own.
     [[nodiscard]] bool is_valid() const noexcept
     {
-        return std::all_of(requests_.begin(), requests_.end(), [](const Request& request) {
+        return std::all_of(requests_.begin(), requests_.end(), [this](const Request& request) {
             if (request.when) return true;
-            if constexpr (HasEvents<M>) return request.index < M::events_names.size();
+            if constexpr (HasEvents<M>) return request.index < values_.model().events_names.size();
             return false;
         });
     }

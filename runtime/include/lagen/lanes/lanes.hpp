@@ -6,6 +6,7 @@
 #include "lagen/kernel.hpp"
 #include "lagen/lanes/registers.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -73,7 +74,7 @@ struct SliceOf<S, 1> {
 };
 template <int width>
 requires(width > 1) struct SliceOf<double, width> {
-    using type = typename RegisterOf<double, width>::type;
+    using type = typename RegisterOf<double, static_cast<std::size_t>(width)>::type;
 };
 
 /// One lane of a column, or several.
@@ -124,23 +125,65 @@ template <int width, class Column>
 }
 
 template <class Column>
-[[gnu::always_inline]] inline void store(Column& column, Eigen::Index lane,
-                                         const typename Column::Scalar& value) noexcept
+[[gnu::always_inline]] inline void store(Column&& column, Eigen::Index lane,
+                                         const typename std::remove_cvref_t<Column>::Scalar& value) noexcept
 {
     column[lane] = value;
 }
 template <class Column, class Vector>
 requires(doubles_in<Vector> > 0)
-    [[gnu::always_inline]] inline void store(Column& column, Eigen::Index lane, const Vector& value) noexcept
+    [[gnu::always_inline]] inline void store(Column&& column, Eigen::Index lane, const Vector& value) noexcept
 {
     std::memcpy(column.data() + lane, &value, sizeof value);
 }
 template <class Column>
-[[gnu::always_inline]] inline void store(Column& column, Eigen::Index lane,
-                                         const Twin<typename Column::Scalar>& value) noexcept
+[[gnu::always_inline]] inline void store(Column&& column, Eigen::Index lane,
+                                         const Twin<typename std::remove_cvref_t<Column>::Scalar>& value) noexcept
 {
     column[lane] = value.first;
     column[lane + 1] = value.second;
+}
+
+/// Where the lanes of a column are whose size is known at run time. A loop over lanes holds it by value: the place of
+/// the numbers of an Eigen column would have to be read again behind every store. (RK4 of a heavy top: a quarter of a
+/// step's instructions.)
+template <class Number>
+struct LanePlace {
+    using Scalar = std::remove_const_t<Number>;
+    static constexpr int SizeAtCompileTime = Eigen::Dynamic;
+    Number* lanes;
+
+    [[nodiscard]] [[gnu::always_inline]] Number& operator[](Eigen::Index lane) const noexcept { return lanes[lane]; }
+    [[nodiscard]] [[gnu::always_inline]] Number* data() const noexcept { return lanes; }
+};
+
+template <class Column>
+inline constexpr bool is_sized_later = Column::SizeAtCompileTime == Eigen::Dynamic;
+
+/// What a loop over lanes holds of a column, or of the columns first .. count - 1 of several: the column itself, or the
+/// place of its lanes. More than eight places stay where they are, since a processor has no registers for them.
+template <class Column>
+[[nodiscard]] [[gnu::always_inline]] inline decltype(auto) held(Column& column) noexcept
+{
+    using Number = std::remove_pointer_t<decltype(column.data())>;
+    if constexpr (is_sized_later<std::remove_const_t<Column>>)
+        return LanePlace<Number>{column.data()};
+    else
+        return (column);
+}
+template <std::size_t first, std::size_t count, class Column, std::size_t all>
+[[nodiscard]] [[gnu::always_inline]] inline decltype(auto) held(const std::array<Column, all>& columns) noexcept
+{
+    if constexpr (is_sized_later<Column> && count <= 8) {
+        return [&]<std::size_t... k>(std::index_sequence<k...>) __attribute__((always_inline))
+        {
+            using Place = LanePlace<const typename Column::Scalar>;
+            return std::array<Place, count>{(k < first ? Place{} : Place{columns[k].data()})...};
+        }
+        (std::make_index_sequence<count>{});
+    } else {
+        return (columns);
+    }
 }
 
 template <int width>
@@ -157,7 +200,7 @@ template <class Vector>
 requires(doubles_in<Vector> > 0) [[gnu::always_inline]] inline Vector size_of(const Vector& x) noexcept
 {
     using Bits = typename RegisterOf<long long, doubles_in<Vector>>::type;
-    return (Vector)((Bits)x & ~(Bits)-Vector{});
+    return reinterpret_cast<Vector>(reinterpret_cast<Bits>(x) & ~reinterpret_cast<Bits>(-Vector{}));
 }
 
 template <class S>
@@ -233,10 +276,11 @@ template <int width, Eigen::Index size, class Function>
 [[gnu::always_inline]] inline void for_slices([[maybe_unused]] Eigen::Index count, const Function& f) noexcept
 {
     if constexpr (size > 0 && size <= 8 * width) {
-        write_out_slices<width, 0, size>(f);
+        write_out_slices<width, 0, size>([&](auto slice, Eigen::Index lane) { f(slice, lane); });
     } else {
         Eigen::Index lane = 0;
-        const auto go_on = [&]<int narrower>(Width<narrower>) {
+        const auto go_on = [&]<int narrower>(Width<narrower>) __attribute__((always_inline))
+        {
             if constexpr (narrower <= width)
                 for (; lane + narrower <= count; lane += narrower) f(Width<narrower>(), lane);
         };

@@ -198,9 +198,11 @@ template <class T, int N>
 {
 #if defined(__AVX512F__) // with a mask: without one g++ 12 warns of what its own header leaves unset
     if constexpr (sizeof a == 64 && std::is_same_v<T, double>)
-        return Pack<T, N>::of((typename Pack<T, N>::Vector)_mm512_maskz_sqrt_pd(0xff, (__m512d)a.lanes));
+        return Pack<T, N>::of(reinterpret_cast<typename Pack<T, N>::Vector>(
+            _mm512_maskz_sqrt_pd(0xff, reinterpret_cast<__m512d>(a.lanes))));
     if constexpr (sizeof a == 64 && std::is_same_v<T, float>)
-        return Pack<T, N>::of((typename Pack<T, N>::Vector)_mm512_maskz_sqrt_ps(0xffff, (__m512)a.lanes));
+        return Pack<T, N>::of(reinterpret_cast<typename Pack<T, N>::Vector>(
+            _mm512_maskz_sqrt_ps(0xffff, reinterpret_cast<__m512>(a.lanes))));
 #endif
     std::array<T, static_cast<std::size_t>(N)> lanes;
     std::memcpy(&lanes, &a.lanes, sizeof lanes);
@@ -226,7 +228,8 @@ LAGEN_PACK_FUNCTION(exp) LAGEN_PACK_FUNCTION(log) LAGEN_PACK_FUNCTION(erf)
 {
     using Bits = typename Mask<T, N>::Vector;
     using Vector = typename Pack<T, N>::Vector;
-    return Pack<T, N>::of((Vector)((Bits)a.lanes & ~(Bits)(-Vector{})));
+    return Pack<T, N>::of(
+        reinterpret_cast<Vector>(reinterpret_cast<Bits>(a.lanes) & ~reinterpret_cast<Bits>(-Vector{})));
 }
 
 template <class T, int N>

@@ -26,13 +26,39 @@ struct WithScalar<Model<T>, S> {
     using type = Model<S>;
 };
 
-/// Nothing but parameters, which a model of another scalar can be given.
+/// Bytes of the parameters and inputs of a model, in its order; a header without parameters has an empty struct of
+/// them.
 template <class M>
-concept HoldsParameters = std::is_empty_v<M> || requires(M& model)
+[[nodiscard]] consteval std::size_t size_of_numbers() noexcept
 {
-    requires HasParameters<M>;
-    requires sizeof(M) == sizeof(model.parameters);
+    if constexpr (HasInputs<M>) {
+        struct Numbers {
+            decltype(M::parameters) parameters;
+            decltype(M::inputs) inputs;
+        };
+        return sizeof(Numbers);
+    } else {
+        return sizeof(M::parameters);
+    }
+}
+
+/// Nothing but parameters and inputs, which a model of another scalar can be given, where it has any.
+template <class M>
+concept HoldsNumbers = std::is_empty_v<M> || requires
+{
+    requires HasParameters<M> || std::is_empty_v<decltype(M::parameters)>;
+    requires sizeof(M) == size_of_numbers<M>();
 };
+
+/// Every parameter and input of `from`, as put(of to, of from).
+template <class From, class To, class Put>
+void give_numbers(From from, To& to, const Put& put) noexcept
+{
+    if constexpr (HasParameters<From>)
+        for (std::size_t k = 0; k < From::parameter_names.size(); ++k) put(to.parameter(k), from.parameter(k));
+    if constexpr (HasInputs<From>)
+        for (std::size_t k = 0; k < From::input_names.size(); ++k) put(to.input(k), from.input(k));
+}
 
 template <class M>
 concept SaysPacks = requires
@@ -48,7 +74,7 @@ concept SaysPacks = requires
 /// `takes_packs`.
 template <class M>
 concept TakesPacks = (std::is_same_v<typename M::Scalar, double> ||
-                      std::is_same_v<typename M::Scalar, float>)&&SaysPacks<M>&& HoldsParameters<M> &&
+                      std::is_same_v<typename M::Scalar, float>)&&SaysPacks<M>&& HoldsNumbers<M> &&
                      !Follows<M> && moves_by_sums<M> && requires
 {
     typename WithScalar<M, float>::type;
@@ -84,10 +110,7 @@ class PackedStages {
     /// Takes the parameters of `model`, and the number of lanes of a state.
     void begin(const M& model, Eigen::Index lanes) noexcept
     {
-        if constexpr (!std::is_empty_v<M>) {
-            M copy = model;
-            for (std::size_t k = 0; k < M::parameter_names.size(); ++k) model_.parameter(k) = P(copy.parameter(k));
-        }
+        give_numbers(model, model_, [](P& to, const Real& from) { to = P(from); });
         z_ = x_ = slopes_ = Lanes::Zero(lanes);
     }
 
@@ -172,7 +195,7 @@ class PackedStages {
     }
     static Vector absolute(const Vector& x) noexcept
     {
-        return (Vector)((Bits)x & ~(Bits)(-Vector{}));
+        return reinterpret_cast<Vector>(reinterpret_cast<Bits>(x) & ~reinterpret_cast<Bits>(-Vector{}));
     }
     static Real largest(const Vector& x) noexcept
     {

@@ -40,14 +40,12 @@ struct SharedSteps {
     void adopt(int lane, const M& own_model, const typename M::State& s, const Own& own,
                const Controller<Real>& own_controller) noexcept
     {
-        if constexpr (!std::is_empty_v<M>) {
-            M copy = own_model;
-            for (std::size_t k = 0; k < M::parameter_names.size(); ++k)
-                for (int i = empty ? 0 : lane; i <= (empty ? N - 1 : lane); ++i)
-                    model.parameter(k).set(i, copy.parameter(k));
-        }
+        const int first = empty ? 0 : lane, last = empty ? N - 1 : lane;
+        give_numbers(own_model, model, [&](P& to_lanes, const Real& number) {
+            for (int i = first; i <= last; ++i) to_lanes.set(i, number);
+        });
         if (empty) to = from = State::Zero(s.size());
-        for (int i = empty ? 0 : lane; i <= (empty ? N - 1 : lane); ++i) {
+        for (int i = first; i <= last; ++i) {
             stepper.adopt(i, own);
             controller.set_lane(i, own_controller);
             for (Eigen::Index k = 0; k < s.size(); ++k) from[k].set(i, s[k]);

@@ -150,7 +150,8 @@ class Terms {
             });
         if constexpr (is_pack<S> && sizeof(S) == 64 && std::is_same_v<real_t<S>, double>) // a lane what its scalar gets
             return each([&](std::size_t k) __attribute__((always_inline)) {
-                return S::of((typename S::Vector)detail::inverse_cubes_of_register((__m512d)a.registers_[k].lanes));
+                const auto lanes = reinterpret_cast<__m512d>(a.registers_[k].lanes);
+                return S::of(reinterpret_cast<typename S::Vector>(detail::inverse_cubes_of_register(lanes)));
             });
 #endif
         return S(1) / (a * sqrt(a));

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// What a long computation is doing, for a program that shows it: rooms say it, and know of no terminal.
+///
+///   Activity activity("deciding jacobi", residuals.size());
+///   for (const Residual& residual : residuals) { activity.next(); decide(residual); }
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <string>
+
+namespace lagen {
+
+/// Lasts as long as the object. Activities begin and end one inside the other, in one thread.
+class Activity {
+  public:
+    /// `count`: how many of something there are to do; 0 where that is not known.
+    explicit Activity(std::string what, std::size_t count = 0);
+    ~Activity();
+    Activity(const Activity&) = delete;
+    Activity& operator=(const Activity&) = delete;
+
+    /// The next one begins.
+    void next() { ++begun_; }
+    /// "deciding jacobi, 12 of 400"
+    [[nodiscard]] std::string text() const;
+
+  private:
+    std::string what_;
+    std::size_t count_;
+    std::atomic<std::size_t> begun_ = 0;
+};
+
+/// The activities that last, from the outside in: "deciding the model: jacobi, 12 of 400"; "" where none does. From any
+/// thread.
+[[nodiscard]] std::string activities_text();
+
+} // namespace lagen

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// What an interrupted run leaves: the rows so far.
+#pragma once
+
+#include "commands/line/options.hpp"
+#include "commands/scene/table.hpp"
+
+namespace lagen {
+
+/// Writes the rows where the run would have written them, but for a file, which is FILE.partial: what was there before
+/// stays. `known` as for to_csv, `report` is the object of JSON, `time` the last one of the run.
+ExitCode leave_rows(const Options& options, const Table& rows, const std::vector<std::string>& known,
+                    const std::string& report, const std::string& time);
+
+} // namespace lagen

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/scene/second_run.hpp"
+
+#include "commands/scene/integrate_scene.hpp"
+
+#include <fmt/core.h>
+
+#include <cstdlib>
+#include <limits>
+
+namespace lagen {
+
+namespace {
+
+constexpr double longest = 5; ///< seconds of a first run after which a second one is made unasked
+/// Half the step takes twice as many, a tenth of the tolerance 10^(1/3) times as many where the error of a step is of
+/// the third order, and fewer by higher ones.
+constexpr std::uint64_t most_times = 5, spare_steps = 10000;
+
+std::optional<ProgramInput> at_a_tenth(ProgramInput input, std::string& said)
+{
+    const long double relative = input.relative.value_or(0) / 10, absolute = input.absolute.value_or(0) / 10;
+    if (relative > 0 ? relative < std::numeric_limits<double>::epsilon()
+                     : absolute < std::numeric_limits<double>::min()) {
+        said = "a second run at a smaller tolerance cannot be made";
+        return std::nullopt;
+    }
+    said = "a second run at a tenth of the tolerance";
+    input.relative = relative;
+    input.absolute = absolute;
+    return input;
+}
+
+/// A discrete motion has its step among its parameters, and twice as many steps between its rows.
+std::optional<ProgramInput> with_half_of_own_step(const RunSetting& run, std::string& said)
+{
+    const auto cannot = [&](const char* why) {
+        said = fmt::format("a second run with half the step cannot be made: {}", why);
+        return std::nullopt;
+    };
+    if (run.input.from_arrow) return cannot("the start is an arrow of one step");
+    if (run.input.branch.value_or(1) != 1) return cannot("the branches of the first arrow are others");
+    Scene half = run.scene;
+    const long double step = *evaluate_scene(run.model, run.scene).step / 2;
+    half.step = number(Rational(static_cast<double>(step)));
+    ProgramInput input = run.input;
+    try {
+        const SceneValues values = evaluate_scene(run.model, half);
+        input.parameters = finite_numbers(values.parameters, half);
+        input.initial = run.start(values);
+        if (values.own_step) input.parameters.push_back(*values.step);
+    } catch (const ModelError&) {
+        return cannot("the start is none for it");
+    } catch (const MathematicsError&) {
+        return cannot("the start is none for it");
+    }
+    if (input.parameters == run.input.parameters) return cannot("the model fixes its step");
+    input.times.every *= 2;
+    return input;
+}
+
+std::optional<ProgramInput> with_half_the_step(const RunSetting& run, std::string& said)
+{
+    said = "a second run with half the step";
+    if (run.input.times.every > 0) return with_half_of_own_step(run, said);
+    ProgramInput input = run.input;
+    input.step = *input.step / 2;
+    return input;
+}
+
+} // namespace
+
+SecondRun second_run_of(const Options& options)
+{
+    if (!options.has("no-second-run")) return options.has("second-run") ? SecondRun::always : SecondRun::short_runs;
+    if (options.has("second-run"))
+        throw UsageError(
+            fmt::format("lagen {}: --second-run and --no-second-run exclude each other", options.command()));
+    return SecondRun::none;
+}
+
+std::string reason_for_one_run(const RunOutcome& outcome, SecondRun wanted)
+{
+    const double seconds = std::strtod(outcome.seconds.c_str(), nullptr);
+    if (wanted == SecondRun::always || seconds <= longest) return "";
+    return fmt::format("not estimated, the run took {:.2g} s; --second-run makes a second one", seconds);
+}
+
+std::optional<ProgramInput> finer_input(const RunSetting& run, std::string& said)
+{
+    return run.method.adaptive ? at_a_tenth(run.input, said) : with_half_the_step(run, said);
+}
+
+void judge_state(const RunSetting& run, SecondRun wanted, RunOutcome& outcome)
+{
+    const std::uint64_t steps = std::strtoull(outcome.steps.c_str(), nullptr, 10);
+    if (wanted == SecondRun::none || steps == 0) return;
+    outcome.second_run = reason_for_one_run(outcome, wanted);
+    if (!outcome.second_run.empty()) return;
+    std::optional<ProgramInput> input = finer_input(run, outcome.second_run);
+    if (!input) return;
+    input->most_steps = most_times * (steps + std::strtoull(outcome.rejected.c_str(), nullptr, 10)) + spare_steps;
+    RunOutcome second;
+    second.state = outcome.state;
+    if (!is_uninterrupted([&] { integrate_scene(run.program, *input, second); })) {
+        outcome.second_run = "not estimated, the second run was interrupted";
+        return;
+    }
+    outcome.accuracy = accuracy_of(outcome.table, second.table, input->times.kind == Sampling::Kind::event);
+    if (!outcome.accuracy)
+        outcome.second_run += " has no row to compare";
+    else if (!succeeded(second.status) && second.status != outcome.status)
+        outcome.second_run +=
+            fmt::format(", which ends at t = {:.6g}: {}", std::strtod(second.time.c_str(), nullptr), second.status);
+}
+
+} // namespace lagen

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// A method of which only at run time is known which it is, for compiled models: the loop over steps is compiled once
+/// for all adaptive methods and once for all methods of fixed steps, and asks the stepper of one of them by virtual
+/// functions (lagen/integrate/stepper.hpp says what is asked of a stepper). A step costs one such call.
+#pragma once
+
+#include "lagen/compiled_model.hpp"
+#include "lagen/integrate/control.hpp"
+#include "lagen/integrate/stepper.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <utility>
+
+namespace lagen {
+
+class StepperFace {
+  public:
+    using State = CompiledModel::State;
+
+    StepperFace() = default;
+    StepperFace& operator=(const StepperFace&) = delete;
+    virtual ~StepperFace() = default;
+    [[nodiscard]] virtual std::unique_ptr<StepperFace> copy() const = 0;
+
+    virtual Status begin(const CompiledModel& model, double t, const State& s) = 0;
+    virtual Status attempt(const CompiledModel& model, double t, const State& s, double h, State& s1) noexcept = 0;
+    virtual void accept() noexcept = 0;
+    virtual void forget() noexcept = 0;
+    virtual Status interpolate(const CompiledModel& model, double t, const State& s, double h, const State& s1,
+                               double theta, State& out) noexcept = 0;
+    [[nodiscard]] virtual detail::Work work() const noexcept = 0;
+
+    // ---- of adaptive methods ----
+
+    [[nodiscard]] virtual double first_step(const CompiledModel& model, double t, double length,
+                                            const State& s) noexcept = 0;
+    [[nodiscard]] virtual double error() const noexcept = 0;
+    virtual Status finish(const CompiledModel& model, double t1, const State& s1) noexcept = 0;
+    [[nodiscard]] virtual const State& derivative() const noexcept = 0;
+    [[nodiscard]] virtual double after_accepted(double h, double error) noexcept = 0;
+    [[nodiscard]] virtual double after_rejected(double h, double error) noexcept = 0;
+    [[nodiscard]] virtual double after_failure(double h) noexcept = 0;
+
+  protected:
+    StepperFace(const StepperFace&) = default;
+};
+
+/// The stepper of one method. Adaptive ones that leave the lengths to the loop bring its controller along.
+template <class Method>
+class StepperOf final : public StepperFace {
+    using Stepper = typename Method::template Stepper<CompiledModel>;
+    static constexpr bool adaptive = Stepper::adaptive;
+    static constexpr bool chooses_lengths = requires(Stepper stepper, double h) { stepper.after_failure(h); };
+
+  public:
+    explicit StepperOf(const Method& method) : stepper_(method)
+    {
+        if constexpr (adaptive && !chooses_lengths)
+            lengths_ = detail::Controller<double>(method.control(), Stepper::error_order, Stepper::beta_share);
+    }
+
+    [[nodiscard]] std::unique_ptr<StepperFace> copy() const override { return std::make_unique<StepperOf>(*this); }
+    Status begin(const CompiledModel& model, double t, const State& s) override { return stepper_.begin(model, t, s); }
+    Status attempt(const CompiledModel& model, double t, const State& s, double h, State& s1) noexcept override
+    {
+        return stepper_.attempt(model, t, s, h, s1);
+    }
+    void accept() noexcept override { stepper_.accept(); }
+    void forget() noexcept override
+    {
+        if constexpr (requires { stepper_.forget(); }) stepper_.forget();
+    }
+    Status interpolate(const CompiledModel& model, double t, const State& s, double h, const State& s1, double theta,
+                       State& out) noexcept override
+    {
+        return stepper_.interpolate(model, t, s, h, s1, theta, out);
+    }
+    [[nodiscard]] detail::Work work() const noexcept override { return detail::Work().with(stepper_); }
+
+    [[nodiscard]] double first_step(const CompiledModel& model, double t, double length,
+                                    const State& s) noexcept override
+    {
+        if constexpr (adaptive) return stepper_.first_step(model, t, length, s);
+        return length;
+    }
+    [[nodiscard]] double error() const noexcept override
+    {
+        if constexpr (adaptive) return stepper_.error();
+        return 0;
+    }
+    Status finish(const CompiledModel& model, double t1, const State& s1) noexcept override
+    {
+        if constexpr (adaptive) return stepper_.finish(model, t1, s1);
+        return Status::ok;
+    }
+    [[nodiscard]] const State& derivative() const noexcept override
+    {
+        if constexpr (adaptive) return stepper_.derivative();
+        return none_;
+    }
+    [[nodiscard]] double after_accepted(double h, double error) noexcept override
+    {
+        if constexpr (chooses_lengths) return stepper_.after_accepted(h, error);
+        return lengths_.after_accepted(h, error);
+    }
+    [[nodiscard]] double after_rejected(double h, double error) noexcept override
+    {
+        if constexpr (chooses_lengths) return stepper_.after_rejected(h, error);
+        return lengths_.after_rejected(h, error);
+    }
+    [[nodiscard]] double after_failure(double h) noexcept override
+    {
+        if constexpr (chooses_lengths) return stepper_.after_failure(h);
+        return lengths_.after_failure(h);
+    }
+
+  private:
+    Stepper stepper_;
+    detail::Controller<double> lengths_{StepControl{}, 5, 0.0};
+    State none_;
+};
+
+/// The stepper that the loop over steps has.
+template <bool is_adaptive>
+class AnyStepper {
+  public:
+    using State = CompiledModel::State;
+    static constexpr bool adaptive = is_adaptive;
+    static constexpr int order = 8, dense_order = 8; ///< of integrals along the motion
+
+    template <class Method>
+    explicit AnyStepper(const Method& method) : one_(method.stepper())
+    {
+    }
+    AnyStepper(const AnyStepper& other) : one_(other.one_->copy()) {}
+    AnyStepper(AnyStepper&&) noexcept = default;
+    AnyStepper& operator=(const AnyStepper& other)
+    {
+        one_ = other.one_->copy();
+        return *this;
+    }
+    AnyStepper& operator=(AnyStepper&&) noexcept = default;
+    ~AnyStepper() = default;
+
+    Status begin(const CompiledModel& model, double t, const State& s) { return one_->begin(model, t, s); }
+    Status attempt(const CompiledModel& model, double t, const State& s, double h, State& s1) noexcept
+    {
+        return one_->attempt(model, t, s, h, s1);
+    }
+    void accept() noexcept { one_->accept(); }
+    void forget() noexcept { one_->forget(); }
+    Status interpolate(const CompiledModel& model, double t, const State& s, double h, const State& s1, double theta,
+                       State& out) noexcept
+    {
+        return one_->interpolate(model, t, s, h, s1, theta, out);
+    }
+    [[nodiscard]] std::size_t calls() const noexcept { return one_->work().calls; }
+    [[nodiscard]] std::size_t newton_iterations() const noexcept { return one_->work().newton_iterations; }
+    [[nodiscard]] std::size_t decompositions() const noexcept { return one_->work().decompositions; }
+
+    [[nodiscard]] double first_step(const CompiledModel& model, double t, double length, const State& s) noexcept
+    {
+        return one_->first_step(model, t, length, s);
+    }
+    [[nodiscard]] double error() const noexcept { return one_->error(); }
+    Status finish(const CompiledModel& model, double t1, const State& s1) noexcept
+    {
+        return one_->finish(model, t1, s1);
+    }
+    [[nodiscard]] const State& derivative() const noexcept { return one_->derivative(); }
+    [[nodiscard]] double after_accepted(double h, double error) noexcept requires(is_adaptive)
+    {
+        return one_->after_accepted(h, error);
+    }
+    [[nodiscard]] double after_rejected(double h, double error) noexcept requires(is_adaptive)
+    {
+        return one_->after_rejected(h, error);
+    }
+    [[nodiscard]] double after_failure(double h) noexcept requires(is_adaptive) { return one_->after_failure(h); }
+
+  private:
+    std::unique_ptr<StepperFace> one_;
+};
+
+/// An adaptive method, by the function that makes its stepper and its own numbers of step control.
+struct AnyAdaptive {
+    std::unique_ptr<StepperFace> (*make)(double relative, double absolute) = nullptr;
+    StepControl numbers{};
+    double tolerance = 1e-9, relative = -1, absolute = -1;
+
+    [[nodiscard]] StepControl control() const noexcept
+    {
+        StepControl all = numbers;
+        all.relative = relative;
+        all.absolute = absolute;
+        return all;
+    }
+    [[nodiscard]] std::unique_ptr<StepperFace> stepper() const { return make(relative, absolute); }
+    template <class M>
+    using Stepper = AnyStepper<true>;
+};
+
+/// A method of fixed steps.
+struct AnyFixed {
+    std::unique_ptr<StepperFace> (*make)() = nullptr;
+    double step = 0;
+
+    [[nodiscard]] std::unique_ptr<StepperFace> stepper() const { return make(); }
+    template <class M>
+    using Stepper = AnyStepper<false>;
+};
+
+/// The method of this type, AnyAdaptive or AnyFixed.
+template <class Method>
+[[nodiscard]] AnyAdaptive any_adaptive()
+{
+    return {[](double relative, double absolute) -> std::unique_ptr<StepperFace> {
+                Method method{};
+                method.relative = relative;
+                method.absolute = absolute;
+                return std::make_unique<StepperOf<Method>>(method);
+            },
+            Method{}.control()};
+}
+template <class Method>
+[[nodiscard]] AnyFixed any_fixed()
+{
+    return {[]() -> std::unique_ptr<StepperFace> { return std::make_unique<StepperOf<Method>>(Method{.step = 1}); }};
+}
+
+} // namespace lagen
