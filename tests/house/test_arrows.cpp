@@ -190,6 +190,7 @@ TEST_CASE("the runtime includes nothing but itself, Eigen, the standard library 
     for (const SourceText& file : cpp_files(read_tree({"runtime"})))
         for (const Include& include : includes_of(file)) {
             INFO(file.path << ":" << include.line << " includes " << include.target);
+            if (include.target == "lagen/that_is_all") continue; // no file: it ends a compilation that was refused
             if (include.quoted) {
                 const bool program = include.target.starts_with("lagen_");
                 CHECK(std::filesystem::exists(std::filesystem::path(LAGEN_SOURCE_DIR) /

@@ -60,3 +60,17 @@ template <class M>
 } // namespace detail
 
 } // namespace lagen
+
+namespace lagen::detail {
+
+/// The place theta on the chord from a to b; of states without sums the nearer end.
+template <class M, class State, class Real>
+void go_straight(const State& a, const State& b, const Real& theta, State& out) noexcept
+{
+    if constexpr (moves_by_sums<M>)
+        out = a + theta * (b - a);
+    else
+        out = theta < Real(0.5) ? a : b;
+}
+
+} // namespace lagen::detail
