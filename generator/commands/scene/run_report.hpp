@@ -58,7 +58,8 @@ struct RunOutcome {
     std::string newton, decompositions; ///< Newton iterations and factorisations of implicit methods; else empty
     bool searches = false;              ///< controls are searched for, and followed
     std::vector<EventReport> events;
-    std::vector<std::string> starts_on{}; ///< events on or beyond whose zero the run starts, and that do not happen there
+    std::vector<std::string>
+        starts_on{}; ///< events on or beyond whose zero the run starts, and that do not happen there
     std::vector<Drift> invariants, casimirs, constraints; ///< the first of the invariants is the energy
     std::vector<Drift> balance; ///< of the energy less the work, where forces or explicit time change the energy
     std::string work;           ///< of them, over the run
