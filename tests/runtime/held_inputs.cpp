@@ -42,6 +42,18 @@ struct HeldRows {
 
 const detail::HeldInputs steps{{0, 1, 2}, {1, 0, -1, 0, 0, 0}}; ///< u, k: a push, a brake, nothing
 
+/// The work of u, by the midpoint of each part: exact, as v is linear there.
+struct Work {
+    const HeldMass& model;
+    double time = 0, work = 0;
+    template <int nodes, class Inside>
+    void sum(double, double h, const Inside& inside)
+    {
+        time += h;
+        work += h * model.inputs.u * inside(0.5)[1];
+    }
+};
+
 } // namespace
 
 TEST_CASE("a run goes from row to row of a table of inputs, and its rows have the inputs of their times")
@@ -175,17 +187,6 @@ TEST_CASE("an Integrator of a fixed step holds inputs from where it stands")
 
 TEST_CASE("what an observer sums along a run goes over all of it, whatever rows are asked for")
 {
-    /// The work of u, by the midpoint of each part: exact, as v is linear there.
-    struct Work {
-        const HeldMass& model;
-        double time = 0, work = 0;
-        template <int nodes, class Inside>
-        void sum(double, double h, const Inside& inside)
-        {
-            time += h;
-            work += h * model.inputs.u * inside(0.5)[1];
-        }
-    };
     const std::vector<double> last{3}, none;
     const std::array<EventRequest<double, HeldMass::State>, 1> never{{{.index = 0, .direction = Crossing::rising}}};
     for (const std::vector<double>* at : {&last, &none})
