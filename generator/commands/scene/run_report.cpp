@@ -281,30 +281,11 @@ std::string last_state(const RunOutcome& outcome)
                        outcome.state.size() <= most_lanes ? lanes : "");
 }
 
-/// What the state is worth, or why that is not known.
-std::string accuracy_line(const RunOutcome& outcome)
-{
-    if (outcome.second_run.empty()) return "";
-    return outcome.accuracy ? fmt::format("  {} ({})\n", text_of(*outcome.accuracy), outcome.second_run)
-                            : fmt::format("  error of the state: {}\n", outcome.second_run);
-}
-
 std::string accuracy_members(const RunOutcome& outcome)
 {
     return fmt::format(" \"accuracy\": {}, \"below_absolute\": {},",
                        outcome.accuracy ? json_of(*outcome.accuracy) : "null",
                        list_text(outcome.below_absolute, [](const SmallLane& lane) { return string_text(lane.name); }));
-}
-
-std::string small_lanes_warning(const RunOutcome& outcome)
-{
-    constexpr std::size_t most = 6;
-    const std::vector<SmallLane>& lanes = outcome.below_absolute;
-    std::string names;
-    for (std::size_t k = 0; k < std::min(lanes.size(), most); ++k)
-        names += fmt::format("{}{} (at most {})", k == 0 ? "" : ", ", lanes[k].name, brief(lanes[k].most, 2));
-    if (lanes.size() > most) names += fmt::format(" and {} more", lanes.size() - most);
-    return lanes.empty() ? "" : below_absolute_warning(names, outcome.absolute);
 }
 
 /// Of a run that did not leave its start.
@@ -343,13 +324,6 @@ bool succeeded(const std::string& status)
 bool is_interrupted(const RunOutcome& outcome)
 {
     return outcome.status == "interrupted";
-}
-
-std::string below_absolute_warning(const std::string& lanes, const std::string& tolerance)
-{
-    return fmt::format("warning: {} moved and never exceeded the absolute tolerance{}{}: the digits may be noise\n"
-                       "hint: `absolute` in the scene far below them, or other units\n",
-                       lanes, tolerance.empty() ? "" : " ", tolerance);
 }
 
 std::string report_json(const RunOutcome& outcome)
@@ -408,7 +382,7 @@ std::string report_text(const RunOutcome& outcome)
     if (!outcome.largest_step.empty())
         text += fmt::format("  the largest step near it that goes on there: {}\n", outcome.largest_step);
     if (failed && outcome.steps == "0") return text + start_hint(outcome);
-    return text + accuracy_line(outcome) + action_text(outcome) + figures_text(outcome);
+    return text + accuracy_line(outcome.accuracy, outcome.second_run) + action_text(outcome) + figures_text(outcome);
 }
 
 std::string start_note(const RunOutcome& outcome)
@@ -433,7 +407,7 @@ std::string run_warnings(const RunOutcome& outcome)
                                 drift.name, brief(drift.max_drift, 3), brief(drift.size, 3), brief(drift.moved_at, 9),
                                 outcome.status == "left_domain" ? ", where the run left the domain"
                                                                 : "; a smaller step or tolerance keeps it better");
-    return text + small_lanes_warning(outcome);
+    return text + small_lanes_warning(outcome.below_absolute, outcome.absolute);
 }
 
 } // namespace lagen

@@ -2,6 +2,7 @@
 /// What a run gave, and how it is told.
 #pragma once
 
+#include "commands/scene/small_lanes.hpp"
 #include "commands/scene/state_accuracy.hpp"
 
 #include <cstdint>
@@ -42,11 +43,6 @@ struct ActionReport {
     std::vector<std::string> base, fibre, second, squares; ///< one a variation
 };
 
-/// A lane of the state that moved and never exceeded the absolute tolerance, with the most that it came to.
-struct SmallLane {
-    std::string name, most;
-};
-
 struct RunOutcome {
     std::string model, scene, form, method;
     std::string status; ///< "ok", "stopped_by_event", "left_domain", ... (runtime's names)
@@ -85,10 +81,6 @@ struct RunOutcome {
 
 /// By the user: there are the rows so far.
 [[nodiscard]] bool is_interrupted(const RunOutcome& outcome);
-
-/// "warning: LANES moved and never exceeded the absolute tolerance ..": steps that are as accurate as their tolerances
-/// ask for no digit of them.
-[[nodiscard]] std::string below_absolute_warning(const std::string& lanes, const std::string& tolerance);
 
 /// The object of `run --format json`; numbers keep their digits, what is not finite is null.
 [[nodiscard]] std::string report_json(const RunOutcome& outcome);

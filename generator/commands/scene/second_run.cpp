@@ -16,6 +16,7 @@ constexpr double longest = 5; ///< seconds of a first run after which a second o
 /// Half the step takes twice as many, a tenth of the tolerance 10^(1/3) times as many where the error of a step is of
 /// the third order, and fewer by higher ones.
 constexpr std::uint64_t most_times = 5, spare_steps = 10000;
+constexpr int most_tenths = 6;
 
 std::optional<ProgramInput> at_a_tenth(ProgramInput input, std::string& said)
 {
@@ -68,6 +69,14 @@ std::optional<ProgramInput> with_half_the_step(const RunSetting& run, std::strin
     return input;
 }
 
+RunOutcome finer_run(const RunSetting& run, const ProgramInput& input, const RunOutcome& outcome)
+{
+    RunOutcome second;
+    second.state = outcome.state;
+    (void)is_uninterrupted([&] { integrate_scene(run.program, input, second); });
+    return second;
+}
+
 } // namespace
 
 SecondRun second_run_of(const Options& options)
@@ -100,9 +109,17 @@ void judge_state(const RunSetting& run, SecondRun wanted, RunOutcome& outcome)
     std::optional<ProgramInput> input = finer_input(run, outcome.second_run);
     if (!input) return;
     input->most_steps = most_times * (steps + std::strtoull(outcome.rejected.c_str(), nullptr, 10)) + spare_steps;
-    RunOutcome second;
-    second.state = outcome.state;
-    if (!is_uninterrupted([&] { integrate_scene(run.program, *input, second); })) {
+    RunOutcome second = finer_run(run, *input, outcome);
+    // The same steps confirm nothing.
+    for (int k = 2; k <= most_tenths && run.method.adaptive && second.steps == outcome.steps; ++k) {
+        std::string said;
+        const std::optional<ProgramInput> next = at_a_tenth(*input, said);
+        if (!next) break;
+        input = next;
+        second = finer_run(run, *input, outcome);
+        outcome.second_run = fmt::format("a second run at 1e-{} of the tolerance: a tenth makes the same steps", k);
+    }
+    if (is_interrupted(second)) {
         outcome.second_run = "not estimated, the second run was interrupted";
         return;
     }

@@ -79,6 +79,13 @@ std::string text_of(const StateAccuracy& accuracy)
     return fmt::format("digits hold until t = {:.6g}", std::strtod(accuracy.holds_until.c_str(), nullptr));
 }
 
+std::string accuracy_line(const std::optional<StateAccuracy>& accuracy, const std::string& second_run)
+{
+    if (second_run.empty()) return "";
+    return accuracy ? fmt::format("  {} ({})\n", text_of(*accuracy), second_run)
+                    : fmt::format("  error of the state: {}\n", second_run);
+}
+
 std::string json_of(const StateAccuracy& accuracy)
 {
     return fmt::format("{{\"estimate\": {}, \"holds_until\": {}}}",

@@ -22,6 +22,9 @@ struct StateAccuracy {
 /// "error of the state: about 3e-9", or "digits hold until t = 19.2".
 [[nodiscard]] std::string text_of(const StateAccuracy& accuracy);
 
+/// The line that says so. `second_run` is what the second run was, or why nothing is known; empty: there is no line.
+[[nodiscard]] std::string accuracy_line(const std::optional<StateAccuracy>& accuracy, const std::string& second_run);
+
 /// An object of JSON.
 [[nodiscard]] std::string json_of(const StateAccuracy& accuracy);
 
