@@ -53,43 +53,73 @@ std::map<std::string, std::vector<NodeId>> square_matrices(const Graph& graph, c
     return matrices;
 }
 
-/// "R*transpose(R)" where the anchor turns R from the right, "transpose(R)*R" where it does from the left: the product
-/// that every motion keeps, in the place of the other one that was claimed; empty where there is none.
-std::string kept_product(const System& system, Judge& judge, Graph& graph, BaseGradient& partial)
-{
-    for (const auto& [name, R] : square_matrices(graph, system.algebroid.x)) {
-        const auto order = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(R.size()))));
-        std::vector<NodeId> turned; // R^T
-        for (std::size_t k = 0; k < R.size(); ++k) turned.push_back(R[k % order * order + k / order]);
-        const auto is_kept = [&](NodeId f) {
-            return std::ranges::all_of(system.algebroid.anchor, [&](const VectorField& rho) {
-                const NodeId rate = partial.along(rho, f);
-                return graph.is_zero(rate) || judge.decide(rate).status == ProofStatus::proved;
-            });
-        };
-        if (std::ranges::all_of(R, is_kept)) continue; // nothing moves it
-        if (std::ranges::all_of(matrix_product(graph, R, turned, order), is_kept))
-            return name + "*transpose(" + name + ")";
-        if (std::ranges::all_of(matrix_product(graph, turned, R, order), is_kept))
-            return "transpose(" + name + ")*" + name;
+/// Products of a matrix with its transpose, in the one order and in the other.
+class MatrixProducts {
+  public:
+    MatrixProducts(const System& system, Judge& judge, Graph& graph, BaseGradient& partial)
+        : system_(system), judge_(judge), graph_(graph), partial_(partial)
+    {
     }
-    return {};
-}
 
-/// To what claims a matrix of functions to be constant, which its rates refute.
+    /// "R*transpose(R)", which the anchor keeps, where `f` is this entry of transpose(R)*R up to a constant, and the
+    /// other way round; "" where nothing is known.
+    [[nodiscard]] std::string other_than(NodeId f, const MatrixPlace& place)
+    {
+        for (const auto& [name, R] : square_matrices(graph_, system_.algebroid.x)) {
+            const auto order = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(R.size()))));
+            if (std::max(place.row, place.column) > order) continue;
+            std::vector<NodeId> turned; // R^T
+            for (std::size_t k = 0; k < R.size(); ++k) turned.push_back(R[k % order * order + k / order]);
+            const std::vector<NodeId> rows = matrix_product(graph_, R, turned, order);
+            const std::vector<NodeId> columns = matrix_product(graph_, turned, R, order);
+            const std::size_t entry = (place.row - 1) * order + place.column - 1;
+            if (is_constant(graph_.subtract(f, columns[entry])) && are_kept(rows))
+                return name + "*transpose(" + name + ")";
+            if (is_constant(graph_.subtract(f, rows[entry])) && are_kept(columns))
+                return "transpose(" + name + ")*" + name;
+        }
+        return {};
+    }
+
+  private:
+    [[nodiscard]] bool is_zero(NodeId f) { return graph_.is_zero(f) || judge_.decide(f).status == ProofStatus::proved; }
+    [[nodiscard]] bool is_constant(NodeId f)
+    {
+        return std::ranges::all_of(Column(partial_.of(f)),
+                                   [this](const ColumnEntry& slope) { return is_zero(slope.value); });
+    }
+    [[nodiscard]] bool are_kept(const std::vector<NodeId>& functions)
+    {
+        return std::ranges::all_of(functions, [this](NodeId f) {
+            return std::ranges::all_of(system_.algebroid.anchor,
+                                       [&](const VectorField& rho) { return is_zero(partial_.along(rho, f)); });
+        });
+    }
+
+    const System& system_;
+    Judge& judge_;
+    Graph& graph_;
+    BaseGradient& partial_;
+};
+
+/// To matrices of Casimirs that are refuted: R*transpose(R) for transpose(R)*R.
 void advise_of_products(const System& system, Report& report, Judge& judge, Graph& graph, BaseGradient& partial)
 {
-    const auto claims_matrix = [](const Check& check) {
-        return (check.name == "casimir" || check.name == "invariant") &&
-               check.decision.status == ProofStatus::refuted && matrix_entry(check.indices.back());
-    };
-    if (std::ranges::none_of(report.structure.checks, claims_matrix)) return;
-    const std::string product = kept_product(system, judge, graph, partial);
-    if (product.empty()) return;
-    for (Check& check : report.structure.checks)
-        if (claims_matrix(check))
-            check.hint = product + " is constant along all motions of the algebroid: rho(e) of each of its entries is "
-                                   "0 for each section e";
+    MatrixProducts products(system, judge, graph, partial);
+    std::map<std::string, std::string> of_claim;
+    for (Check& check : report.structure.checks) {
+        if (check.name != "casimir" || check.decision.status != ProofStatus::refuted) continue;
+        const auto place = matrix_entry(check.indices.back());
+        const auto casimir = std::ranges::find(system.casimirs, check.indices.back(), &BaseFunctionText::name);
+        if (!place || casimir == system.casimirs.end()) continue;
+        const auto [hint, first] = of_claim.try_emplace(place->family);
+        const NodeId f = system.functions.casimirs[static_cast<std::size_t>(casimir - system.casimirs.begin())];
+        if (first) hint->second = products.other_than(f, *place);
+        if (!hint->second.empty())
+            check.hint = hint->second +
+                         " is constant along all motions of the algebroid: rho(e) of each of its entries is "
+                         "0 for each section e";
+    }
 }
 
 } // namespace

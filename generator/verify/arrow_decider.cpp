@@ -3,6 +3,7 @@
 
 #include "graph/calculus/differentiate.hpp"
 #include "verify/group_chart.hpp"
+#include "verify/witness_point.hpp"
 
 #include <algorithm>
 
@@ -70,7 +71,9 @@ Decision ArrowDecider::on_matrices(NodeId residual) const
 {
     ProofSetting setting = setting_;
     for (const std::vector<NodeId>& W : elements_) append(setting.variables, W);
-    return ZeroDecider(graph_, setting, budget_).decide(residual);
+    Decision decision = ZeroDecider(graph_, setting, budget_).decide(residual);
+    show_concerned(graph_, setting, residual, decision);
+    return decision;
 }
 
 Decision ArrowDecider::on_group(NodeId residual)
@@ -88,6 +91,7 @@ Decision ArrowDecider::on_group(NodeId residual)
     append(setting.variables, chart_variables_);
     const NodeId charted = substitute(graph_, {&residual, 1}, charted_)[0];
     Decision decision = ZeroDecider(graph_, setting, budget_).decide(charted);
+    show_concerned(graph_, setting, charted, decision);
     std::string text = "W = cay(s(c) E_c)";
     if (elements_.size() > 1) text += ", W' = cay(s'(c) E_c)";
     text += " with the generators E_c of the group";

@@ -48,8 +48,9 @@ class MaximumDecision {
         const std::string& name = name_of(k);
         const std::string slope = proofs_.decider().decide(hamiltonian_.dH_du[k]).residual;
         const std::string shown = slope.empty() || slope.size() > longest ? "" : " = " + slope;
+        const bool switches = control_.lower[k] && control_.upper[k];
         const std::string missing =
-            control_.lower[k] && control_.upper[k]
+            switches
                 ? fmt::format("between its bounds it is bang-bang, at the upper one where dH/d{0}{1} > 0 and at the "
                               "lower one where it is < 0, and what is missing are motions that switch there",
                               name, shown)
@@ -57,9 +58,10 @@ class MaximumDecision {
                               name, shown);
         return {Kind::unsolved,
                 fmt::format("H is affine in the control {0}: dH/d{0} = 0 does not determine it; {1}", name, missing),
-                fmt::format("give the cost a term in which {0} is strictly convex: a small multiple of {0}^2 gives "
-                            "motions near those that switch",
-                            name)};
+                fmt::format("give the cost a term in which {0} is strictly convex{1}", name,
+                            switches
+                                ? fmt::format(": a small multiple of {}^2 gives motions near those that switch", name)
+                                : "")};
     }
 
     [[nodiscard]] ControlMaximum of_stationary() { return control_.bounded() ? between_bounds() : without_bounds(); }

@@ -15,14 +15,7 @@ Judge::Judge(const Graph& graph, ProofSetting setting, std::size_t points, const
 Decision Judge::decide_anew(NodeId residual) const
 {
     Decision decision = decider_->decide(residual);
-    if (!decision.witness) return decision;
-    std::set<std::string> names = input_names(graph_, {residual});
-    if (decision.normal_form) {
-        const std::vector<std::string> left = names_in(decision.normal_form); // what cancels is no part of it
-        names = {left.begin(), left.end()};
-    }
-    decision.witness->whole = decision.witness->point;
-    decision.witness->point = concerned(graph_, setting_, std::move(names), decision.witness->whole);
+    show_concerned(graph_, setting_, residual, decision);
     return decision;
 }
 

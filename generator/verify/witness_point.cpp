@@ -44,6 +44,18 @@ NamedPoint concerned(const Graph& graph, const ProofSetting& setting, std::set<s
     return result;
 }
 
+void show_concerned(const Graph& graph, const ProofSetting& setting, NodeId residual, Decision& decision)
+{
+    if (!decision.witness) return;
+    std::set<std::string> names = input_names(graph, {residual});
+    if (decision.normal_form) {
+        const std::vector<std::string> left = names_in(decision.normal_form); // what cancels is no part of it
+        names = {left.begin(), left.end()};
+    }
+    decision.witness->whole = decision.witness->point;
+    decision.witness->point = concerned(graph, setting, std::move(names), decision.witness->whole);
+}
+
 WitnessPoint::WitnessPoint(Graph& graph, const NamedPoint& point) : graph_(graph)
 {
     for (const auto& [name, value] : point) {

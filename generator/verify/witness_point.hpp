@@ -16,6 +16,9 @@ namespace lagen {
 [[nodiscard]] NamedPoint concerned(const Graph& graph, const ProofSetting& setting, std::set<std::string> names,
                                    const NamedPoint& point);
 
+/// Leaves in the witness of a decision, where it has one, what the residual is about; the rest stays in `whole`.
+void show_concerned(const Graph& graph, const ProofSetting& setting, NodeId residual, Decision& decision);
+
 class WitnessPoint {
   public:
     WitnessPoint(Graph& graph, const NamedPoint& point);

@@ -339,9 +339,11 @@ TEST_CASE("forms that a model does not have are refused with the reason", "[kern
           "hint: the velocities cannot be solved for; give every fibre coordinate a kinetic term");
     CHECK(refusal(body, "pontryagin") == "error: model 'body' is no control problem; the Pontryagin form needs "
                                          "[control] with controls, sigma and cost");
-    CHECK(refusal(control("controls = [\"u\"]\nsigma = { a = \"v\", b = \"u\" }\ncost = \"x^2\"\n"), "pontryagin") ==
-          "error: the controls of model 'problem' are not solved for: H is affine in the control u: dH/du = 0 does not "
-          "determine it (a singular or bang-bang control)\nhint: give the cost a term in which u is strictly convex");
+    CHECK(
+        refusal(control("controls = [\"u\"]\nsigma = { a = \"v\", b = \"u\" }\ncost = \"x^2\"\n"), "pontryagin") ==
+        "error: the controls of model 'problem' are not solved for: H is affine in the control u: dH/du = 0 does not "
+        "determine it; without two bounds H has a maximum only where dH/du = pv is 0 (a singular control)\nhint: give "
+        "the cost a term in which u is strictly convex");
     const std::string bounded = "error: the controls of model 'problem' are not solved for: with bounds on controls H "
                                 "must be separable, smooth "
                                 "and strictly concave in them, or dH/du = 0 and the bounds do not give its maximum: ";

@@ -132,8 +132,13 @@ TEST_CASE("kinks, affine and dependent controls are named", "[maximum]")
     CHECK(of_one("u^2/2 - abs(u)", "[-4, 1]").kind == Kind::nonsmooth);
     CHECK(of_one("u^2 + atan2(x, u)").reason ==
           "H is not smooth in the controls: it contains atan2(x, u), which was not proved to keep off its cut");
-    CHECK(of_one("x^2").reason == "H is affine in the control u: dH/du = 0 does not determine it (a singular or "
-                                  "bang-bang control)");
+    CHECK(of_one("x^2").reason == "H is affine in the control u: dH/du = 0 does not determine it; without two bounds H "
+                                  "has a maximum only where dH/du = p is 0 (a singular control)");
+    CHECK(of_one("x^2", "[-1, 1]").reason ==
+          "H is affine in the control u: dH/du = 0 does not determine it; between its bounds it is bang-bang, at the "
+          "upper "
+          "one where dH/du = p > 0 and at the lower one where it is < 0, and what is missing are motions that switch "
+          "there");
     const ControlMaximum dependent = of_two("(u + w)^2");
     CHECK(dependent.kind == Kind::unsolved);
     CHECK(dependent.reason ==

@@ -20,7 +20,7 @@ std::string point_text(const NamedPoint& point)
     std::string text;
     for (const auto& [name, value] : point)
         text += fmt::format("{}{} = {:.6g}", text.empty() ? "" : ", ", name, to_double(value));
-    return text;
+    return text.empty() ? "every point" : text;
 }
 
 constexpr ProofBudget composition_budget{.terms = 5000, .products = 2'000'000};
