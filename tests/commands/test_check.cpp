@@ -60,7 +60,7 @@ TEST_CASE("a refuted model shows its residual and a witness, and exits 1")
                          "refuted: anchor (u, v, y)\n"
                          "  component y of [rho(u), rho(v)] - rho([u, v])\n"
                          "  residual 1\n"
-                         "  at x = 1, y = 2: 1\n"
+                         "  at every point: 1\n"
                          "  hint: [u, v] needs component v = 1/x, given is none; with it all equations of the "
                          "algebroid hold\n");
     const json::Value value = json::parse(call({"check", "refuted.toml", "--format", "json"}).out);
@@ -71,7 +71,7 @@ TEST_CASE("a refuted model shows its residual and a witness, and exits 1")
     CHECK(check["indices"].texts() == std::vector<std::string>{"u", "v", "y"});
     CHECK(check["status"].text == "refuted");
     CHECK(check["residual"].text == "1");
-    CHECK(check["witness"].keys == std::vector<std::string>{"x", "y"});
+    CHECK(check["witness"].keys.empty()); // the residual is a number
     CHECK(check["value"].number() == 1);
     CHECK(check["hint"].text ==
           "[u, v] needs component v = 1/x, given is none; with it all equations of the algebroid hold");

@@ -87,7 +87,7 @@ TEST_CASE("a false map is refused; unchecked, each component that does not proje
     for (const json::Value& check : value["checks"].entries) {
         if (check["status"].text != "refuted") continue;
         ++refuted;
-        CHECK(check["witness"].keys.size() > 5);
+        CHECK(check["witness"].keys.size() > 0);
     }
     CHECK(refuted == 5); // g2' has no w2
 }

@@ -48,7 +48,7 @@ std::string fault_of(const LocalAlgebroid& algebroid, const Check& check)
     // Where the two orders of a pair disagree, C has no meaning for the other equations.
     if (!algebroid.second_orders.empty() && check.name != "antisymmetry") return "";
     Point point;
-    for (const auto& [name, value] : check.decision.witness->point) point[name] = Ball(exact_number(to_text(value)));
+    for (const auto& [name, value] : check.decision.witness->whole) point[name] = Ball(exact_number(to_text(value)));
     for (const std::vector<std::string>* names : {&algebroid.base, &algebroid.parameters})
         for (const std::string& name : *names)
             if (!point.contains(name)) return "the witness has no " + name;
