@@ -172,7 +172,6 @@ std::string regularity_text(const Regularity& regularity)
     if (regularity.is_first_order())
         return fmt::format("  {:<16}H is affine in the momenta: a first-order system ẋ = ρ(∂H/∂μ), with costates\n",
                            "regularity");
-    // Of a W that is not decided the rank is not known either.
     const std::string rank =
         regularity.kind == Regularity::Kind::undecided ? "" : fmt::format(", rank {}", regularity.rank);
     std::string text = fmt::format("  {:<16}{}{}{}{}\n", "regularity", kind_text(regularity.kind), rank,

@@ -215,9 +215,8 @@ struct Scene {
     std::vector<NamedTree> inputs;         ///< u over t, the state and parameters; those left out have their defaults
     std::optional<InputTable> input_table; ///< in the place of `inputs`
     std::string form;                      ///< empty: the default for the model
-    SourceRange form_where;
-    std::string method; ///< empty: the default for the form
-    SourceRange method_where;
+    SourceRange form_where, method_where;
+    std::string method;     ///< empty: the default for the form
     std::string stepped_by; ///< the method that makes its motion discrete, where the scene alone is not
     Tree step, tolerance, relative, absolute; ///< null where absent
     Tree time_scale; ///< of the steps of a splitting, over everything observable; null where absent

@@ -246,3 +246,16 @@ TEST_CASE("a large mass matrix that depends on the state is regular where it is 
     CHECK(result.singular_where.empty());
     CHECK(result.rank == 10);
 }
+
+TEST_CASE("H = p.X is told from a degenerate Hamiltonian: it makes a first-order system")
+{
+    const auto of = [](const char* H) {
+        return verified_text(std::string("[base]\ncoordinates = [\"x\", \"y\"]\n[fibre]\nmomenta = [\"p\", \"q\"]\n"
+                                         "[algebroid]\nkind = \"tangent\"\n[hamiltonian]\nH = \"") +
+                             H + "\"\n")
+            .mechanics.regularity;
+    };
+    CHECK(of("p*sin(y) - q*x + x^2").is_first_order());
+    CHECK_FALSE(of("p^2/2 - q*x").is_first_order());
+    CHECK_FALSE(of("(p^2 + q^2)/2").is_first_order());
+}

