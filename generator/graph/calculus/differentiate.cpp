@@ -139,10 +139,11 @@ class ReverseSweep {
     std::map<NodeId, std::vector<NodeId>> solve_adjoints_;
 };
 
-enum class AtZeros { chain_rule, limits };
+/// With limits where `moving` is there: inputs that move, whether they have a seed or not.
+using Moving = std::optional<std::span<const NodeId>>;
 
 std::vector<NodeId> directional(Graph& graph, std::span<const NodeId> outputs,
-                                std::span<const std::pair<NodeId, NodeId>> seeds, AtZeros at_zeros)
+                                std::span<const std::pair<NodeId, NodeId>> seeds, Moving moving)
 {
     const auto nodes = reachable(graph, outputs);
     const NodeId zero = graph.constant(0);
@@ -152,7 +153,13 @@ std::vector<NodeId> directional(Graph& graph, std::span<const NodeId> outputs,
     const auto active = dependent_nodes(graph, nodes, inputs);
     std::map<NodeId, std::vector<NodeId>> solutions;
     std::optional<Limits> limits;
-    if (at_zeros == AtZeros::limits) limits.emplace(graph, outputs, nodes, active);
+    std::vector<bool> moves;
+    if (moving) {
+        std::vector<NodeId> all(moving->begin(), moving->end());
+        all.insert(all.end(), inputs.begin(), inputs.end());
+        moves = dependent_nodes(graph, nodes, all);
+        limits.emplace(graph, outputs, nodes, moves);
+    }
     for (const auto& [input, tangent] : seeds)
         if (input < tangents.size()) tangents[input] = tangent;
     for (const NodeId id : nodes) {
@@ -175,13 +182,14 @@ std::vector<NodeId> directional(Graph& graph, std::span<const NodeId> outputs,
 std::vector<NodeId> directional(Graph& graph, std::span<const NodeId> outputs,
                                 std::span<const std::pair<NodeId, NodeId>> seeds)
 {
-    return directional(graph, outputs, seeds, AtZeros::chain_rule);
+    return directional(graph, outputs, seeds, std::nullopt);
 }
 
 std::vector<NodeId> directional_with_limits(Graph& graph, std::span<const NodeId> outputs,
-                                            std::span<const std::pair<NodeId, NodeId>> seeds)
+                                            std::span<const std::pair<NodeId, NodeId>> seeds,
+                                            std::span<const NodeId> moving)
 {
-    return directional(graph, outputs, seeds, AtZeros::limits);
+    return directional(graph, outputs, seeds, moving);
 }
 
 std::vector<NodeId> gradient(Graph& graph, NodeId output, std::span<const NodeId> inputs)
@@ -208,12 +216,12 @@ std::vector<NodeId> joined_rows(const std::vector<std::vector<NodeId>>& rows)
 namespace {
 
 std::vector<std::vector<NodeId>> jacobian(Graph& graph, std::span<const NodeId> outputs, std::span<const NodeId> inputs,
-                                          AtZeros at_zeros)
+                                          Moving moving)
 {
     std::vector<std::vector<NodeId>> result(outputs.size());
     for (const NodeId input : inputs) {
         const std::pair<NodeId, NodeId> seed[] = {{input, graph.constant(1)}};
-        const auto column = directional(graph, outputs, seed, at_zeros);
+        const auto column = directional(graph, outputs, seed, moving);
         for (std::size_t r = 0; r < outputs.size(); ++r) result[r].push_back(column[r]);
     }
     return result;
@@ -223,13 +231,13 @@ std::vector<std::vector<NodeId>> jacobian(Graph& graph, std::span<const NodeId> 
 
 std::vector<std::vector<NodeId>> jacobian(Graph& graph, std::span<const NodeId> outputs, std::span<const NodeId> inputs)
 {
-    return jacobian(graph, outputs, inputs, AtZeros::chain_rule);
+    return jacobian(graph, outputs, inputs, std::nullopt);
 }
 
 std::vector<std::vector<NodeId>> jacobian_with_limits(Graph& graph, std::span<const NodeId> outputs,
                                                       std::span<const NodeId> inputs)
 {
-    return jacobian(graph, outputs, inputs, AtZeros::limits);
+    return jacobian(graph, outputs, inputs, inputs);
 }
 
 } // namespace lagen
