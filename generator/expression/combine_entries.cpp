@@ -107,8 +107,8 @@ Value pick_entry(const Maker& maker, const Tree& tree, std::span<const Value> ar
             entries.push_back(maker.entry(base, i * base.shape.columns + j));
     if (!rows.is_range && !columns.is_range) return scalar(std::move(entries[0]));
     const bool vector = rows.is_range != columns.is_range;
-    return array_value(maker, vector ? vector_shape(entries.size()) : matrix_shape(rows.count, columns.count),
-                       std::move(entries));
+    const Shape shape = vector ? vector_shape(entries.size()) : matrix_shape(rows.count, columns.count);
+    return array_value(maker, shape, std::move(entries));
 }
 
 Value close_range(const Tree& tree, std::span<const Value> ends)

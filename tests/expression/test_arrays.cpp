@@ -194,7 +194,7 @@ TEST_CASE("a name is read as equations print it")
     CHECK(closed_text(scope, "ẋ₂") == "b");
     CHECK(closing_error(scope, "ẏ") == "unknown symbol 'ẏ'");
     CHECK(closing_error(scope, "q̈") == "unknown symbol 'q̈'");
-    CHECK(closing_error(scope, "q²").substr(0, 24) == "unexpected character '²'");
+    CHECK(closing_error(scope, "q²").substr(0, 25) == "unexpected character '²'");
     scope.declare("ẏ", {});
     CHECK(closed_text(scope, "ẏ") == "ẏ"); // what is declared wins
     CHECK_FALSE(is_identifier("x₁"));

@@ -35,9 +35,9 @@ TEST_CASE("functions at multiples of pi/6 and pi/4 have their exact values")
     CHECK(folded("cos(pi/3)") == "1/2");
     CHECK(folded("cos(0.5*pi + pi/6)") == "-1/2");
     CHECK(folded("sin(pi/4)") == "sqrt(2)/2");
-    CHECK(folded("sin(5*pi/3)") == "-(sqrt(3)/2)");
+    CHECK(folded("sin(5*pi/3)") == "-sqrt(3)/2");
     CHECK(folded("tan(pi/4)") == "1");
-    CHECK(folded("tan(-pi/6)") == "-(sqrt(3)/3)");
+    CHECK(folded("tan(-pi/6)") == "-sqrt(3)/3");
     CHECK(folded("cos(pi/4)^2 + sin(pi/4)^2") == "1");
     CHECK(folded("x*sin(pi) + y*cos(2*pi)") == "y");
 }
@@ -45,16 +45,16 @@ TEST_CASE("functions at multiples of pi/6 and pi/4 have their exact values")
 TEST_CASE("inverse functions at the sines of these angles are multiples of pi")
 {
     CHECK(folded("asin(1)") == "pi/2");
-    CHECK(folded("asin(-1/2)") == "-(pi/6)");
+    CHECK(folded("asin(-1/2)") == "-pi/6");
     CHECK(folded("acos(-1)") == "pi");
     CHECK(folded("acos(sqrt(3)/2)") == "pi/6");
     CHECK(folded("atan(1)") == "pi/4");
-    CHECK(folded("atan(-sqrt(3))") == "-(pi/3)");
+    CHECK(folded("atan(-sqrt(3))") == "-pi/3");
     CHECK(folded("atan2(1, 0)") == "pi/2");
-    CHECK(folded("atan2(-2, 0)") == "-(pi/2)");
+    CHECK(folded("atan2(-2, 0)") == "-pi/2");
     CHECK(folded("atan2(0, -3)") == "pi");
     CHECK(folded("atan2(1, -1)") == "3*pi/4");
-    CHECK(folded("atan2(-1/2, -sqrt(3)/2)") == "-(5*pi/6)");
+    CHECK(folded("atan2(-1/2, -sqrt(3)/2)") == "-5*pi/6");
     CHECK(folded("log(exp(2))") == "2");
     CHECK(folded("exp(log(3))") == "3");
     CHECK(folded("8^(1/3)") == "2");
@@ -87,6 +87,6 @@ TEST_CASE("the values of constants that fold agree with the functions of the lib
         const auto whole = [](double a) { return std::to_string(std::lround(1.5 * a)); };
         const std::string text = "atan2(" + whole(y) + "*sqrt(3), " + whole(x) + ")";
         CHECK(evaluate<double>(graph, std::vector<NodeId>{lowered(graph, text)}, {})[0] ==
-              Approx(std::atan2(std::round(1.5 * y) * std::sqrt(3.0), std::round(1.5 * x))).margin(1e-14));
+              Approx(std::atan2(std::round(1.5 * y) * std::sqrt(3.0) + 0.0, std::round(1.5 * x))).margin(1e-14));
     }
 }

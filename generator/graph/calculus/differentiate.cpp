@@ -141,13 +141,14 @@ class ReverseSweep {
     std::map<NodeId, std::vector<NodeId>> solve_adjoints_;
 };
 
-enum class AtZeros { chain_rule, limits };
+/// With limits where `moving` is there: inputs that move, whether they have a seed or not.
+using Moving = std::optional<std::span<const NodeId>>;
 
 /// Forward sweeps over what the outputs need, each of which visits the nodes alone that its seeds move.
 class ForwardSweep {
   public:
-    ForwardSweep(Graph& graph, std::span<const NodeId> outputs, AtZeros at_zeros)
-        : graph_(graph), at_zeros_(at_zeros), zero_(graph.constant(0)), outputs_(outputs.begin(), outputs.end()),
+    ForwardSweep(Graph& graph, std::span<const NodeId> outputs, Moving moving)
+        : graph_(graph), moving_(moving), zero_(graph.constant(0)), outputs_(outputs.begin(), outputs.end()),
           nodes_(reachable(graph, outputs))
     {
         const std::vector<NodeId>& nodes = nodes_;
@@ -171,13 +172,13 @@ class ForwardSweep {
         for (const auto& [input, tangent] : seeds)
             if (input < tangents_.size()) tangents_[input] = tangent;
         std::map<NodeId, std::vector<NodeId>> solutions;
-        std::vector<bool> active;
+        std::vector<bool> moves;
         std::optional<Limits> limits;
-        if (at_zeros_ == AtZeros::limits) {
-            active.assign(tangents_.size(), false);
-            for (const std::vector<NodeId>* some : {&moved, &std::as_const(inputs)})
-                for (const NodeId id : *some) active[id] = true;
-            limits.emplace(graph_, outputs_, nodes_, active);
+        if (moving_) {
+            std::vector<NodeId> all(moving_->begin(), moving_->end());
+            all.insert(all.end(), inputs.begin(), inputs.end());
+            moves = dependent_nodes(graph_, nodes_, all);
+            limits.emplace(graph_, outputs_, nodes_, moves);
         }
         for (const NodeId id : moved) {
             const Op op = graph_.op(id);
@@ -218,7 +219,7 @@ class ForwardSweep {
     }
 
     Graph& graph_;
-    AtZeros at_zeros_;
+    Moving moving_;
     NodeId zero_;
     std::vector<NodeId> outputs_, nodes_;
     std::vector<NodeId> users_; ///< of operand k: users_[ends_[k]], .., users_[ends_[k + 1] - 1]
@@ -227,9 +228,9 @@ class ForwardSweep {
 };
 
 std::vector<NodeId> directional(Graph& graph, std::span<const NodeId> outputs,
-                                std::span<const std::pair<NodeId, NodeId>> seeds, AtZeros at_zeros)
+                                std::span<const std::pair<NodeId, NodeId>> seeds, Moving moving)
 {
-    return ForwardSweep(graph, outputs, at_zeros).along(seeds);
+    return ForwardSweep(graph, outputs, moving).along(seeds);
 }
 
 } // namespace
@@ -237,13 +238,14 @@ std::vector<NodeId> directional(Graph& graph, std::span<const NodeId> outputs,
 std::vector<NodeId> directional(Graph& graph, std::span<const NodeId> outputs,
                                 std::span<const std::pair<NodeId, NodeId>> seeds)
 {
-    return directional(graph, outputs, seeds, AtZeros::chain_rule);
+    return directional(graph, outputs, seeds, std::nullopt);
 }
 
 std::vector<NodeId> directional_with_limits(Graph& graph, std::span<const NodeId> outputs,
-                                            std::span<const std::pair<NodeId, NodeId>> seeds)
+                                            std::span<const std::pair<NodeId, NodeId>> seeds,
+                                            std::span<const NodeId> moving)
 {
-    return directional(graph, outputs, seeds, AtZeros::limits);
+    return directional(graph, outputs, seeds, moving);
 }
 
 std::vector<NodeId> gradient(Graph& graph, NodeId output, std::span<const NodeId> inputs)
@@ -273,11 +275,11 @@ std::vector<NodeId> joined_rows(const std::vector<std::vector<NodeId>>& rows)
 namespace {
 
 std::vector<std::vector<NodeId>> jacobian(Graph& graph, std::span<const NodeId> outputs, std::span<const NodeId> inputs,
-                                          AtZeros at_zeros)
+                                          Moving moving)
 {
     std::vector<std::vector<NodeId>> result(outputs.size());
     const NodeId one = graph.constant(1);
-    ForwardSweep sweep(graph, outputs, at_zeros);
+    ForwardSweep sweep(graph, outputs, moving);
     for (const NodeId input : inputs) {
         const std::pair<NodeId, NodeId> seed[] = {{input, one}};
         const auto column = sweep.along(seed);
@@ -290,13 +292,13 @@ std::vector<std::vector<NodeId>> jacobian(Graph& graph, std::span<const NodeId> 
 
 std::vector<std::vector<NodeId>> jacobian(Graph& graph, std::span<const NodeId> outputs, std::span<const NodeId> inputs)
 {
-    return jacobian(graph, outputs, inputs, AtZeros::chain_rule);
+    return jacobian(graph, outputs, inputs, std::nullopt);
 }
 
 std::vector<std::vector<NodeId>> jacobian_with_limits(Graph& graph, std::span<const NodeId> outputs,
                                                       std::span<const NodeId> inputs)
 {
-    return jacobian(graph, outputs, inputs, AtZeros::limits);
+    return jacobian(graph, outputs, inputs, inputs);
 }
 
 } // namespace lagen

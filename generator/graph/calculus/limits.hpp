@@ -14,9 +14,10 @@
 namespace lagen {
 
 /// directional() and jacobian() of graph/calculus/differentiate.hpp with these limits: the same nodes for functions
-/// without such products.
+/// without such products. Inputs in `moving` move as those with a seed do.
 [[nodiscard]] std::vector<NodeId> directional_with_limits(Graph& graph, std::span<const NodeId> outputs,
-                                                          std::span<const std::pair<NodeId, NodeId>> seeds);
+                                                          std::span<const std::pair<NodeId, NodeId>> seeds,
+                                                          std::span<const NodeId> moving = {});
 [[nodiscard]] std::vector<std::vector<NodeId>> jacobian_with_limits(Graph& graph, std::span<const NodeId> outputs,
                                                                     std::span<const NodeId> inputs);
 

@@ -71,12 +71,10 @@ std::optional<SignedRoot> root_of(const Graph& graph, NodeId id, int depth = dee
 /// With the square root of an integer above the bar: sqrt(3)/3.
 NodeId node_of(Graph& graph, const SignedRoot& value)
 {
-    const mpz_class& q = value.square.get_den();
-    const auto exact = rational_root(value.square);
-    const NodeId size = exact
-                            ? graph.constant(*exact)
-                            : graph.divide(graph.apply(Op::sqrt, graph.constant(Rational(value.square.get_num() * q))),
-                                           graph.constant(Rational(q)));
+    const mpz_class &p = value.square.get_num(), &q = value.square.get_den();
+    const auto below = rational_root(Rational(q));
+    const NodeId radicand = graph.constant(below ? Rational(p) : Rational(p * q));
+    const NodeId size = graph.divide(graph.apply(Op::sqrt, radicand), graph.constant(below ? *below : Rational(q)));
     return value.sign < 0 ? graph.negate(size) : size;
 }
 

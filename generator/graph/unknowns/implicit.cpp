@@ -87,7 +87,7 @@ std::vector<std::vector<NodeId>> jacobian_through(Graph& graph, std::span<const 
     for (const ImplicitBlock& block : blocks) extend(graph, block, directions);
     std::vector<std::vector<NodeId>> result(outputs.size(), std::vector<NodeId>(inputs.size()));
     for (std::size_t column = 0; column < inputs.size(); ++column) {
-        const std::vector<NodeId> derivative = directional_with_limits(graph, outputs, directions[column]);
+        const std::vector<NodeId> derivative = directional_with_limits(graph, outputs, directions[column], inputs);
         for (std::size_t row = 0; row < outputs.size(); ++row) result[row][column] = derivative[row];
     }
     return result;
