@@ -7,7 +7,8 @@ namespace lagen {
 
 namespace {
 
-/// Macros of at most seven characters in the headers of C, of POSIX and of their relatives on Linux. '*' stands for capitals.
+/// Macros of at most seven characters in the headers of C, of POSIX and of their relatives on Linux. '*' stands for
+/// capitals.
 // clang-format off
 constexpr std::string_view short_macros[] = {
     "ADJ_TAI", "AF_*", "AI_ALL", "AI_IDN", "B0", "B110", "B115200", "B1200", "B134", "B150", "B1800", "B19200",

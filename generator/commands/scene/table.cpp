@@ -35,8 +35,7 @@ std::vector<std::string_view> fields(std::string_view line)
 std::string to_csv(const Table& table, const std::vector<std::string>& known)
 {
     std::string text;
-    for (const std::string& column : plain_names(table.columns, known))
-        text += (text.empty() ? "" : ",") + column;
+    for (const std::string& column : plain_names(table.columns, known)) text += (text.empty() ? "" : ",") + column;
     text += "\r\n";
     text.reserve(text.size() + table.rows.size() + table.count);
     for (const std::string_view line : table.lines()) text.append(line).append("\r\n");
