@@ -7,7 +7,8 @@ namespace lagen {
 
 namespace {
 
-/// Of seven characters at most, in the headers of C, of POSIX and of their relatives on Linux. '*' stands for capitals.
+/// Macros of at most seven characters in the headers of C, of POSIX and of their relatives on Linux. '*' stands for
+/// capitals.
 // clang-format off
 constexpr std::string_view short_macros[] = {
     "ADJ_TAI", "AF_*", "AI_ALL", "AI_IDN", "B0", "B110", "B115200", "B1200", "B134", "B150", "B1800", "B19200",
@@ -38,7 +39,8 @@ constexpr std::string_view short_macros[] = {
     "N_HDLC", "N_IRDA", "N_MASC", "N_MOUSE", "N_PPP", "N_R3964", "N_SLIP", "N_STRIP", "N_TTY", "N_X25", "OCRNL",
     "OFDEL", "OFILL", "OLCUC", "ONLCR", "ONLRET", "ONOCR", "OPOST", "O_ASYNC", "O_CREAT", "O_DSYNC", "O_EXCL",
     "O_FSYNC", "O_PATH", "O_RDWR", "O_RSYNC", "O_SYNC", "O_TRUNC", "PARENB", "PARMRK", "PARODD", "PENDIN", "PF_*",
-    "POLL*", "P_tmpdir", "REG_*", "R_OK", "SHUT_RD", "SHUT_WR", "SIGABRT", "SIGALRM", "SIGBUS", "SIGCHLD", "SIGCLD",
+    "POLL*", "PRIX*", "P_tmpdir", "REG_*", "R_OK", "SHUT_RD", "SHUT_WR", "SIGABRT", "SIGALRM", "SIGBUS", "SIGCHLD",
+    "SIGCLD",
     "SIGCONT", "SIGEMT", "SIGFPE", "SIGHUP", "SIGILL", "SIGINT", "SIGIO", "SIGIOT", "SIGKILL", "SIGLOST", "SIGPIPE",
     "SIGPOLL", "SIGPROF", "SIGPWR", "SIGQUIT", "SIGSEGV", "SIGSTOP", "SIGSYS", "SIGTERM", "SIGTRAP", "SIGTSTP",
     "SIGTTIN", "SIGTTOU", "SIGURG", "SIGUSR1", "SIGUSR2", "SIGXCPU", "SIGXFSZ", "SIG_DFL", "SIG_ERR", "SIG_IGN",

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <lagen/lanes/pack.hpp>
 #include <lagen/sincos.hpp>
+#include <lagen/single_sincos.hpp>
 
 #include "../support/tolerances.hpp"
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -193,4 +198,25 @@ TEST_CASE("other scalars use functions of their own", "[sincos]")
     CHECK(sines[1].value == 6);
     CHECK(cosines[0].value == 5);
     CHECK(sincos(Counted{1}).sine.value == 2);
+}
+
+TEST_CASE("Sine and cosine in whole numbers are within 0.54 ulp for every float")
+{
+    const auto ulps = [](float found, double exact) {
+        int exponent = 0;
+        (void)std::frexp(exact, &exponent);
+        return std::abs(static_cast<double>(found) - exact) / std::ldexp(1.0, std::max(exponent, -125) - 24);
+    };
+    double worst = 0;
+    for (std::uint32_t bits = 0; bits < 0x7f800000U; bits += 40961) {
+        const auto x = std::bit_cast<float>(bits);
+        const detail::SingleSinCos both = detail::single_sincos(x), opposite = detail::single_sincos(-x);
+        worst = std::max({worst, ulps(both.sine, std::sin(double(x))), ulps(both.cosine, std::cos(double(x)))});
+        CHECK((opposite.sine == -both.sine && opposite.cosine == both.cosine));
+    }
+    CHECK(worst < 0.54);
+    CHECK(worst > 0.5);
+    CHECK(std::signbit(detail::single_sincos(-0.0F).sine));
+    CHECK(std::isnan(detail::single_sincos(std::numeric_limits<float>::infinity()).sine));
+    CHECK(std::isnan(detail::single_sincos(std::nanf("")).cosine));
 }
