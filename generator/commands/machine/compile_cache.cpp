@@ -35,11 +35,11 @@ struct Program {
 };
 
 /// A program, the record of a run, or a precompiled header.
-bool is_key(std::string name)
+bool is_key(std::string_view name)
 {
     for (const std::string_view ending : {".run", ".so", ".gch", ".hpp"})
-        if (name.ends_with(ending)) name.resize(name.size() - ending.size());
-    return name.size() == 32 && name.find_first_not_of("0123456789abcdef") == std::string::npos;
+        if (name.ends_with(ending)) name.remove_suffix(ending.size());
+    return name.size() == 32 && name.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
 /// The last line of a file with this content.

@@ -10,17 +10,17 @@ namespace {
 constexpr std::array watched_signals{SIGINT, SIGTERM, SIGHUP};
 
 /// A handler can reach nothing but a static object.
-volatile std::sig_atomic_t raised = 0;
+volatile std::sig_atomic_t interrupt_raised = 0;
 extern "C" void raise_interrupt_flag(int)
 {
-    raised = 1;
+    interrupt_raised = 1;
 }
 
 } // namespace
 
 InterruptFlag::InterruptFlag()
 {
-    raised = 0;
+    interrupt_raised = 0;
     struct sigaction action {};
     action.sa_handler = raise_interrupt_flag;
     sigemptyset(&action.sa_mask);
@@ -37,7 +37,7 @@ InterruptFlag::~InterruptFlag()
 
 const volatile std::sig_atomic_t* InterruptFlag::flag() const
 {
-    return &raised;
+    return &interrupt_raised;
 }
 
 } // namespace lagen

@@ -62,7 +62,7 @@ std::optional<StateAccuracy> accuracy_of(const Table& run, const Table& second, 
         distances.push_back(distance(here, there));
         size = std::max(size, distance(there, Numbers(there.size(), 0.0)));
     }
-    if (distances.size() < (by_number ? 1 : 2)) return std::nullopt;
+    if (distances.empty()) return std::nullopt;
     const double most = *std::ranges::max_element(distances);
     StateAccuracy accuracy{most > 0 ? most / size : 0};
     const auto first = std::ranges::find_if(distances, [&](double each) { return each > lost * size; });

@@ -180,6 +180,7 @@ class CompiledModel {
     std::span<const char*const> observables_names, invariants_names, constraints_names, casimirs_names, events_names,
         jumps_names;
 
+    [[nodiscard]] bool follows() const noexcept { return follows_; } ///< does some kernel search for something?
     [[nodiscard]] Status follow(double t, const State& s) noexcept
     {
         Status status = Status::ok;

@@ -69,7 +69,11 @@ Run<M> integrate_held(const HeldInputs& inputs, M& model, const typename M::Stat
                                      : std::upper_bound(inputs.times.begin(), inputs.times.end(), run.t);
         const auto row = static_cast<std::size_t>(behind - inputs.times.begin()) - 1;
         const std::size_t count = inputs_of(model).size();
-        for (std::size_t k = 0; k < count; ++k) set_input(model, k, inputs.values[row * count + k]);
+        for (std::size_t k = 0; k < count; ++k) {
+            set_input(model, k, inputs.values[row * count + k]);
+            if constexpr (requires { observer.hold_input(k, 0.0); })
+                observer.hold_input(k, inputs.values[row * count + k]);
+        }
         double end = span.end;
         if (backward)
             end = std::max(end, row == 0 ? end : inputs.times[row]);

@@ -7,6 +7,7 @@
 #include "lagen/kernel.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <type_traits>
 
@@ -65,6 +66,40 @@ void set_input(M& model, std::size_t k, double value)
     else if constexpr (requires { model.input(k); })
         model.input(k) = value;
 }
+
+/// Does it search for something, and follow what it found? Follows is true of every compiled model.
+template <class M>
+[[nodiscard]] bool follows([[maybe_unused]] const M& model) noexcept
+{
+    if constexpr (is_compiled_model<M>) return model.follows();
+    return Follows<M>;
+}
+
+/// The model of a run, or a copy of it that learns along the rows what it follows. The run may set its inputs.
+template <class M>
+class ObservedModel {
+  public:
+    explicit ObservedModel(const M& model) : model_(&model)
+    {
+        if (follows(model)) copy_.emplace(model);
+    }
+    [[nodiscard]] const M& operator*() const noexcept { return copy_ ? *copy_ : *model_; }
+
+    /// A failure is the run's affair.
+    void follow([[maybe_unused]] double t, [[maybe_unused]] const typename M::State& s) noexcept
+    {
+        if constexpr (Follows<M>)
+            if (copy_) static_cast<void>(copy_->follow(t, s));
+    }
+    void hold_input(std::size_t k, double value)
+    {
+        if (copy_) set_input(*copy_, k, value);
+    }
+
+  private:
+    const M* model_;
+    std::optional<M> copy_;
+};
 
 /// Has it this kernel? HasEnergy and its like are true of every compiled model.
 template <class M>

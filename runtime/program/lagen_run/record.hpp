@@ -42,12 +42,13 @@ class DriveRecord {
 
     void row(double t, const State& s)
     {
-        follow(t, s);
+        // Rows and steps come in the order of time, so that what the model follows is continuous in the rows.
+        model_.follow(t, s);
         last_time_ = t;
         line_.clear();
         write(t);
-        if constexpr (requires { model_.observables(t, s); }) {
-            const auto observables = model_.observables(t, s);
+        if constexpr (requires(const M& model) { model.observables(t, s); }) {
+            const auto observables = (*model_).observables(t, s);
             for (const DriveColumn& column : columns_)
                 write(column.observable ? observables[column.index] : s[column.index]);
         } else {
@@ -61,29 +62,29 @@ class DriveRecord {
     /// Out of line: the loop over the steps is the faster for it.
     [[gnu::noinline]] void operator()(double t, const State& s)
     {
-        follow(t, s);
+        model_.follow(t, s);
         if (every_ > 0 && seen_++ % every_ == 0) row(t, s);
-        figures_.see(model_, t, s);
+        figures_.see(*model_, t, s);
         small_.see(s);
     }
 
-    void jump(double t, const State& from, const State& to) { figures_.jump(model_, t, from, to); }
+    void jump(double t, const State& from, const State& to) { figures_.jump(*model_, t, from, to); }
 
     /// The motion over a time h from t0 on, inside(x) its state at t0 + x h.
     template <int nodes, class Inside>
     void sum(double t0, double h, const Inside& inside) requires(HasPower<M>)
     {
-        if constexpr (Follows<M>) {
-            M followed = model_;
-            figures_.template sum<nodes>(followed, t0, h, [&](double x) -> const State& {
-                const State& s = inside(x);
-                static_cast<void>(followed.follow(t0 + x * h, s));
-                return s;
-            });
-        } else {
-            figures_.template sum<nodes>(model_, t0, h, inside);
-        }
+        if (!follows(*model_)) return figures_.template sum<nodes>(*model_, t0, h, inside);
+        ObservedModel<M> followed(*model_);
+        figures_.template sum<nodes>(*followed, t0, h, [&](double x) -> const State& {
+            const State& s = inside(x);
+            followed.follow(t0 + x * h, s);
+            return s;
+        });
     }
+
+    /// From here on the run holds this input.
+    void hold_input(std::size_t k, double value) { model_.hold_input(k, value); }
 
     [[nodiscard]] std::size_t rows() const noexcept { return rows_; }
     /// Of the last row; NaN before the first.
@@ -92,20 +93,13 @@ class DriveRecord {
     /// The lines of the report that this record knows.
     [[nodiscard]] std::string report() const
     {
-        std::string text = figures_.report(model_);
+        std::string text = figures_.report(*model_);
         for (Eigen::Index i = 0; i < small_.size(); ++i)
             if (small_.is_small(i)) text += "below=" + std::to_string(i) + ':' + number_text(small_.most(i)) + '\n';
         return text;
     }
 
   private:
-    /// Rows and steps come in the order of time, so that what the model follows is continuous in the rows. A failure
-    /// is the run's affair.
-    void follow(double t, const State& s) noexcept
-    {
-        if constexpr (Follows<M>) static_cast<void>(model_.follow(t, s));
-    }
-
     /// A field and a comma; native doubles have none.
     void write(double value)
     {
@@ -117,7 +111,7 @@ class DriveRecord {
         line_ += ',';
     }
 
-    std::conditional_t<Follows<M>, M, const M&> model_; ///< a copy where it learns what it follows
+    ObservedModel<M> model_;
     std::vector<DriveColumn> columns_;
     bool binary_;
     RowSink out_;

@@ -25,11 +25,11 @@ class SweepRecord {
     void row(double t, const State& s) { (*this)(t, s); }
     void operator()(double t, const State& s)
     {
-        if constexpr (Follows<M>) static_cast<void>(model_.follow(t, s));
+        model_.follow(t, s);
         small_.see(s);
-        if constexpr (requires { model_.observables(t, s); }) {
+        if constexpr (requires(const M& model) { model.observables(t, s); }) {
             if (observes_) {
-                const auto observables = model_.observables(t, s);
+                const auto observables = (*model_).observables(t, s);
                 return see([&](const DriveColumn& column) {
                     return column.observable ? observables[column.index] : s[column.index];
                 });
@@ -57,7 +57,7 @@ class SweepRecord {
         }
     }
 
-    std::conditional_t<Follows<M>, M, const M&> model_; ///< a copy where it learns what it follows
+    ObservedModel<M> model_;
     const std::vector<DriveColumn>& columns_;
     bool observes_ = false;
     std::vector<double> values_, least_, most_;

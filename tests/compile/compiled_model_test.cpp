@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Models that are compiled as shared objects and loaded.
+#include "compile/generated_program.hpp"
+
+#include <fstream>
+
+using namespace lagen::testing;
+
+namespace {
+
+/// Makes NAME.so in `folder` of a source.
+void make_object(const std::string& folder, const std::string& name, const std::string& source)
+{
+    std::ofstream(folder + name + ".cpp") << source;
+    const Shell made = run_shell("c++ -std=c++20 -O1 -ffp-contract=off -fPIC -shared -fvisibility=hidden "
+                                 "-DEIGEN_MAX_ALIGN_BYTES=16 -Wall -Wextra -Wpedantic -Wconversion -Werror -I'" +
+                                 folder + "' -I'" LAGEN_SOURCE_DIR "/runtime/include' "
+                                 "$(pkg-config --cflags eigen3 | sed s/-I/-isystem/) '" +
+                                 folder + name + ".cpp' -o '" + folder + name + ".so'");
+    INFO(made.output);
+    REQUIRE(made.status == 0);
+}
+
+/// Bytes of the same object, but for some.
+void copy_changed(const std::string& from, const std::string& to, std::size_t size, std::size_t place, char byte)
+{
+    std::string bytes = read_text(from).substr(0, size);
+    if (place < bytes.size()) bytes[place] = byte;
+    std::ofstream(to, std::ios::binary) << bytes;
+}
+
+} // namespace
+
+TEST_CASE("a compiled model has the bits of its header, takes no memory in a step, and is refused where it is none")
+{
+    const std::string folder = std::string(LAGEN_BINARY_DIR) + "/compiled/compiled_model/";
+    std::filesystem::create_directories(folder);
+    const Shell generated = run_shell("'" LAGEN_PROGRAM "' generate '" LAGEN_SOURCE_DIR "/models/heavy_top.toml' -o '" +
+                                      folder + "heavy_top.hpp'");
+    REQUIRE(generated.status == 0);
+    make_object(folder, "heavy_top",
+                "#include \"lagen/export_model.hpp\"\n#include \"heavy_top.hpp\"\n"
+                "LAGEN_EXPORT_MODEL(lagen::models::heavy_top)\n");
+    make_object(folder, "other_version",
+                "#include \"lagen/compiled_model.h\"\nextern \"C\" {\n"
+                "extern __attribute__((visibility(\"default\"))) const char lagen_compiled_model_machine[];\n"
+                "const char lagen_compiled_model_machine[] = \"base\";\n"
+                "__attribute__((visibility(\"default\"))) const lagen_compiled_model* lagen_compiled_model_of();\n"
+                "const lagen_compiled_model* lagen_compiled_model_of()\n{\n"
+                "    static lagen_compiled_model table{};\n    table.version = 999;\n    return &table;\n}\n}\n");
+    std::ofstream(folder + "text.so") << "no shared object\n";
+    copy_changed(folder + "heavy_top.so", folder + "cut.so", 3000, 3000, 0);
+    copy_changed(folder + "heavy_top.so", folder + "other_machine.so", std::string::npos, 18, 0x28); // 32-bit ARM
+
+    CHECK(run_on_headers("compiled_model", {"models/heavy_top.toml"}) ==
+          "load missing.so not_found\n"
+          "load text.so not_a_model\n"
+          "load cut.so not_a_model\n"
+          "load other_machine.so other_machine\n"
+          "load other_version.so other_version\n"
+          "load heavy_top.so ok\n"
+          "model heavy_top 6 w1 I1\n"
+          "bits euler same\n"
+          "bits rk4 same\n"
+          "bits tsit5 same\n"
+          "bits dop853 same\n"
+          "bits verner98 same\n"
+          "memory rk4 0 ok\n"
+          "memory dop853 0 ok\n"
+          "bits parameters same\n"
+          "nystrom refused not_separable\n");
+}
