@@ -30,6 +30,7 @@ constexpr std::array commands{
     CommandEntry{"check", "prove or refute the structure equations and the other claims of a model", run_check},
     CommandEntry{"derive", "print the equations of motion", run_derive},
     CommandEntry{"generate", "write the C++ header of a model", run_generate},
+    CommandEntry{"compile", "make a shared object of a model, which programs load", run_compile, true},
     CommandEntry{"run", "generate, compile and integrate a scene of a model", run_run, true},
     CommandEntry{"sweep", "integrate a scene for many parameters and initial values", run_sweep, true},
     CommandEntry{"chart", "chart what accuracy costs by every method", run_chart, true},

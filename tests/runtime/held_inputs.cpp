@@ -125,8 +125,14 @@ TEST_CASE("behind a jump a motion goes on by the row of its time")
 TEST_CASE("a table of inputs that does not fit the model or the run is refused with a sentence")
 {
     detail::HeldInputs inputs;
-    CHECK(detail::plan_inputs<HeldMass>("", {0, 1}, inputs).empty());
-    CHECK(detail::plan_inputs<HeldMass>("/nowhere/table", {0, 1}, inputs) ==
+    const Interval<double> span{0, 1};
+    CHECK(detail::plan_inputs({}, 1, span, inputs).empty());
+    CHECK(detail::plan_inputs({0, 1, 1}, 1, span, inputs) == "--inputs: rows of t and 1 inputs are required");
+    CHECK(detail::plan_inputs({0, 1, 0, 2}, 1, span, inputs) == "--inputs: increasing times are required");
+    inputs = {};
+    CHECK(detail::plan_inputs({0.5, 1}, 1, span, inputs) == "--inputs: the run begins before the first row");
+    detail::DriveArguments given;
+    CHECK(detail::read_argument("--inputs", "/nowhere/table", given) ==
           "--inputs: \"/nowhere/table\" could not be opened");
 }
 

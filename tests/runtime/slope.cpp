@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <array>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -16,9 +17,10 @@ namespace {
 template <class Value>
 Slope slope_of(std::size_t number, double h, const Value& value)
 {
-    BatchMeans<1> means;
+    BatchMeans means;
+    means.begin(1);
     for (std::size_t n = 0; n < number; ++n)
-        if (const double at_n = value(n); means.wants()) means.see(static_cast<double>(n) * h, {at_n});
+        if (const std::array at_n{value(n)}; means.wants()) means.see(static_cast<double>(n) * h, at_n);
     return means.slope(0);
 }
 

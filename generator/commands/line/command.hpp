@@ -15,6 +15,7 @@ using Arguments = std::span<const std::string>;
 [[nodiscard]] ExitCode run_check(Arguments arguments);
 [[nodiscard]] ExitCode run_derive(Arguments arguments);
 [[nodiscard]] ExitCode run_generate(Arguments arguments);
+[[nodiscard]] ExitCode run_compile(Arguments arguments);
 [[nodiscard]] ExitCode run_run(Arguments arguments);
 [[nodiscard]] ExitCode run_sweep(Arguments arguments);
 [[nodiscard]] ExitCode run_chart(Arguments arguments);

@@ -169,11 +169,10 @@ std::string program_text(const Driver& driver, const std::string& name, const Me
         driver.folder, driver.function, cpp_names({name})[0], type);
 }
 
-std::string model_text(const std::string& name)
+std::string model_text(const std::string& name, bool packs)
 {
-    return fmt::format(
-        "#include \"lagen/export_model.hpp\"\n#include \"model.hpp\"\nLAGEN_EXPORT_MODEL(lagen::models::{})\n",
-        cpp_names({name})[0]);
+    return fmt::format("#include \"lagen/export_model.hpp\"\n#include \"model.hpp\"\n{}(lagen::models::{})\n",
+                       packs ? "LAGEN_EXPORT_MODEL_WITH_PACKS" : "LAGEN_EXPORT_MODEL", cpp_names({name})[0]);
 }
 
 TableNames names_of(const Model& model, const KernelModule& module)

@@ -25,8 +25,9 @@ inline constexpr Driver sweep_driver{"lagen_sweep", "sweep", true};
 [[nodiscard]] std::string program_text(const Driver& driver, const std::string& name, const MethodEntry& method,
                                        bool reversible = false);
 
-/// The whole source of a compiled model of class `name` (of header "model.hpp").
-[[nodiscard]] std::string model_text(const std::string& name);
+/// The whole source of a compiled model of class `name` (of header "model.hpp"); `packs`: its right-hand side over
+/// packs too.
+[[nodiscard]] std::string model_text(const std::string& name, bool packs = false);
 
 /// A column of the table: a state lane or an entry of the observables.
 struct TableColumn {

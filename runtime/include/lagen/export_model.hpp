@@ -3,8 +3,8 @@
 ///   #include "lagen/export_model.hpp"
 ///   #include "model.hpp"
 ///   LAGEN_EXPORT_MODEL(lagen::models::NAME)
-/// compiled as a shared object with rounding options of its own (lagen/docs/compiled_models.md) and
-/// EIGEN_MAX_ALIGN_BYTES=16, so that states may begin wherever malloc puts them.
+/// compiled as a shared object with EIGEN_MAX_ALIGN_BYTES=16, so that states may begin wherever malloc puts them
+/// (docs/compiled_models.md). LAGEN_EXPORT_MODEL_WITH_PACKS adds the right-hand side over packs.
 #pragma once
 
 #include "lagen/compiled_model.h"
@@ -24,8 +24,8 @@
 
 namespace lagen::detail {
 
-/// The functions behind the pointers of the C interface, of the class M over double.
-template <class M>
+/// The functions behind the pointers of the C interface, of the class M over double; `packs`: those over packs too.
+template <class M, bool packs>
 class ModelExport {
     using State = typename M::State;
     static_assert(std::is_same_v<typename M::Scalar, double>, "a compiled model computes in double");
@@ -52,9 +52,6 @@ class ModelExport {
     {
         return number(model(instance).rhs(t, state(s), state(ds)));
     }
-
-    template <int width>
-    static constexpr bool has_packs = TakesPacks<M>;
 
     /// One model over packs, with the parameters of an instance.
     template <int width>
@@ -260,9 +257,7 @@ class ModelExport {
         if constexpr (HasParameterStatus<M>)
             all.parameter_status = [](const void* instance) { return number(model(instance).parameter_status()); };
         all.rhs = rhs;
-#ifdef LAGEN_EXPORT_PACKS
-        if constexpr (TakesPacks<M>) all.rhs4 = rhs_of_packs<4>, all.rhs8 = rhs_of_packs<8>;
-#endif
+        if constexpr (packs && TakesPacks<M>) all.rhs4 = rhs_of_packs<4>, all.rhs8 = rhs_of_packs<8>;
         if constexpr (Follows<M>)
             all.follow = [](void* instance, double t, const double* s) {
                 return number(static_cast<M*>(instance)->follow(t, state(s)));
@@ -281,11 +276,13 @@ class ModelExport {
 
 } // namespace lagen::detail
 
-/// The symbols of a compiled model.
-#define LAGEN_EXPORT_MODEL(MODEL)                                                                                      \
+/// The symbols of a compiled model; with packs or without.
+#define LAGEN_EXPORT_SYMBOLS(MODEL, PACKS)                                                                             \
     extern "C" __attribute__((visibility("default"))) const char lagen_compiled_model_machine[] =                      \
         LAGEN_COMPILED_MODEL_MACHINE;                                                                                  \
     extern "C" __attribute__((visibility("default"))) const lagen_compiled_model* lagen_compiled_model_of(void)        \
     {                                                                                                                  \
-        return lagen::detail::ModelExport<MODEL<double>>::table();                                                     \
+        return lagen::detail::ModelExport<MODEL<double>, PACKS>::table();                                              \
     }
+#define LAGEN_EXPORT_MODEL(MODEL) LAGEN_EXPORT_SYMBOLS(MODEL, false)
+#define LAGEN_EXPORT_MODEL_WITH_PACKS(MODEL) LAGEN_EXPORT_SYMBOLS(MODEL, true)

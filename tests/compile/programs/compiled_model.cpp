@@ -97,6 +97,7 @@ int main()
     Top other;
     other.parameters.mgl = 3.5;
     compare("parameters", other, heavier, lagen::Dop853{.tolerance = 1e-11});
-    std::printf("nystrom refused %s\n",
-                lagen::to_text(lagen::integrate(compiled, Eigen::VectorXd::Ones(6), {0.0, 1.0}, lagen::Rkn86{}).status()));
+    std::printf(
+        "nystrom refused %s\n",
+        lagen::to_text(lagen::integrate(compiled, Eigen::VectorXd::Ones(6), {0.0, 1.0}, lagen::Rkn86{}).status()));
 }
