@@ -218,8 +218,7 @@ TEST_CASE("a sweep counts the rows with lanes below the absolute tolerance", "[s
     const Outcome outcome =
         call({"sweep", nanoradian(), "--initial", "th=1e-9:1:2", "-o", "a.csv"}, {.folder = folder});
     CHECK(outcome.code == 0);
-    CHECK(outcome.err ==
-          "a.csv: 2 rows\nwarning: in 1 row th, w moved and never exceeded the absolute tolerance: the "
-          "digits may be noise\nhint: `absolute` in the scene far below them, or other units\n");
+    CHECK(outcome.err == "a.csv: 2 rows\nwarning: in 1 row th, w moved and never exceeded the absolute tolerance: the "
+                         "digits may be noise\nhint: `absolute` in the scene far below them, or other units\n");
     CHECK(read_text(folder + "/a.csv").find('<') == std::string::npos);
 }

@@ -103,7 +103,6 @@ TEST_CASE("an ensemble that is none is refused at its place", "[sweep]")
 
 TEST_CASE("names of columns are identifiers, and times are told in their two largest units", "[sweep]")
 {
-    using Texts = std::vector<std::string>;
     CHECK(lagen::duration_text(2.3) == "3 s");
     CHECK(lagen::duration_text(59.5) == "1 min 0 s");
     CHECK(lagen::duration_text(3725) == "1 h 2 min");

@@ -41,8 +41,7 @@ std::vector<std::string> all_headers()
 TEST_CASE("every header, included first, refuses C++17 and finite mathematics by one sentence")
 {
     const std::string finite = "lagen needs NaN and infinity, by which runs see that they fail";
-    for (const char* options :
-         {"-std=c++20 -ffast-math", "-std=c++20 -Ofast", "-std=c++20 -ffinite-math-only"}) {
+    for (const char* options : {"-std=c++20 -ffast-math", "-std=c++20 -Ofast", "-std=c++20 -ffinite-math-only"}) {
         const auto errors = errors_of("integrate.hpp", options);
         REQUIRE(errors.size() == 2); // and the file that is missing, at which the compiler stops
         CHECK(errors[0].find(finite) != std::string::npos);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// A flag that SIGINT, SIGTERM and SIGHUP set while it is there, in the place of what they do otherwise, also those that
-/// were held back before. One at a time.
+/// A flag that SIGINT, SIGTERM and SIGHUP set while it is there, in the place of what they do otherwise, also those
+/// that were held back before. One at a time.
 #pragma once
 
 #include <array>

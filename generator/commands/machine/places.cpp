@@ -62,7 +62,7 @@ std::string look_for_obstacle(const fs::path& folder)
     struct statvfs system {};
     const bool executes = ::fstatvfs(file, &system) != 0 || (system.f_flag & ST_NOEXEC) == 0;
     ::close(file);
-    if (failure == ENOSPC || failure == EDQUOT || failure == EFBIG) return std::strerror(failure);
+    if (failure == ENOSPC || failure == EDQUOT) return std::strerror(failure);
     return executes ? "" : "no program can be run from there (noexec)";
 }
 

@@ -10,10 +10,9 @@ namespace lagen {
 
 std::string below_absolute_warning(const std::string& lanes, const std::string& tolerance)
 {
-    return fmt::format(
-        "warning: {} moved and never exceeded the absolute tolerance{}{}: the digits may be noise\n"
-        "hint: `absolute` in the scene far below them, or other units\n",
-        lanes, tolerance.empty() ? "" : " ", tolerance);
+    return fmt::format("warning: {} moved and never exceeded the absolute tolerance{}{}: the digits may be noise\n"
+                       "hint: `absolute` in the scene far below them, or other units\n",
+                       lanes, tolerance.empty() ? "" : " ", tolerance);
 }
 
 std::string small_lanes_warning(const std::vector<SmallLane>& lanes, const std::string& tolerance)
