@@ -8,8 +8,8 @@
 ///
 ///   momenta at the source:  F⁻L_a = →e_a(L)
 ///     p_w = Jz g[2,1]/h + (m2 - m1) g[1,3] g[2,3]/h
-///      p1 = m1 g[1,3] g[3,3]/h - Jz g[3,1]/h
-///      p2 = m2 g[2,3] g[3,3]/h
+///      p1 = m1 g[1,3]/h
+///      p2 = m2 g[2,3]/h
 ///
 ///   momenta at the target:  F⁺L_a = ←e_a(L)
 ///     p_w_next = -Jz g[1,2]/h
@@ -18,8 +18,8 @@
 ///
 ///   discrete Euler-Lagrange equations:  F⁺L(g) - F⁻L(h) = 0,  t(g) = s(h);  μ_{k+1} = Ad*_{g_k} μ_k,  μ_k = F⁻L(g_k)
 ///     0 = (m1 - m2) g_next[1,3] g_next[2,3]/h - Jz g[1,2]/h - Jz g_next[2,1]/h
-///     0 = m1 g[1,1] g[1,3]/h + m2 g[2,1] g[2,3]/h + Jz g_next[3,1]/h - m1 g_next[1,3] g_next[3,3]/h
-///     0 = m1 g[1,2] g[1,3]/h + m2 g[2,2] g[2,3]/h - m2 g_next[2,3] g_next[3,3]/h
+///     0 = m1 g[1,1] g[1,3]/h + m2 g[2,1] g[2,3]/h - m1 g_next[1,3]/h
+///     0 = m1 g[1,2] g[1,3]/h + m2 g[2,2] g[2,3]/h - m2 g_next[2,3]/h
 ///
 /// Operations (with shared terms computed once; "written out" without sharing):
 ///   kernel            + -      *      /  functions  solves  written out

@@ -15,7 +15,8 @@ namespace {
 using Complex = std::complex<double>;
 using Places = std::vector<std::size_t>;
 
-constexpr int most_sweeps = 40; ///< of balancing
+constexpr int most_sweeps = 40;    ///< of balancing
+constexpr slong most_steps = 1000; ///< of QR a row: at a Jordan block they converge slowly
 
 /// A complex ball.
 class ComplexBall {
@@ -124,7 +125,7 @@ std::vector<Approximation> approximations(BallMatrix A, slong precision)
                         A.at(static_cast<std::size_t>(i), static_cast<std::size_t>(j)).get());
     acb_mat_get_mid(middle, matrix);
     acb_ptr near = _acb_vec_init(n), certain = _acb_vec_init(n);
-    acb_mat_approx_eig_qr(near, nullptr, right, middle, nullptr, 0, precision);
+    acb_mat_approx_eig_qr(near, nullptr, right, middle, nullptr, most_steps * n, precision);
     const bool enclosed = acb_mat_eig_multiple(certain, matrix, near, right, precision) != 0;
     std::vector<Approximation> out(A.rows);
     for (slong k = 0; k < n; ++k) {

@@ -151,7 +151,7 @@ TEST_CASE("a vector without declared Casimirs keeps its length, and a place besi
     CHECK(top["equilibrium"]["g[3]"].number() == Approx(std::sqrt(1.44 + 0.09 + 2.56)).epsilon(1e-15));
     CHECK(top["certified"].text == "true");
     // The quadrotor over the origin, where its law holds it.
-    const json::Value hovering = linearised({models_folder() + "/../docs/cookbook/quadrotor.toml"});
+    const json::Value hovering = linearised({LAGEN_SOURCE_DIR "/docs/cookbook/quadrotor.toml"});
     for (const char* name : {"R[1,1]", "R[2,2]", "R[3,3]"})
         CHECK(hovering["equilibrium"][name].number() == Approx(1).epsilon(1e-12));
     for (const char* name : {"x[1]", "x[2]", "x[3]", "w[3]"})

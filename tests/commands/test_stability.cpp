@@ -30,7 +30,7 @@ lagen::StabilityChart tiny_chart()
     chart.form = "lagrange";
     chart.end = 9;
     chart.followed = "energy";
-    chart.axes = {{"step", {0.5, 1, 1.5}}, {"initial.x[1]", {2, 4}}};
+    chart.axes = {{"step", {0.5, 1, 1.5}}, {"initial.x[1]", {2, 4}, "initial.x_1"}};
     chart.columns = {{2, 1, 9}, {4, 1, 9}};
     chart.methods = {{"leapfrog_kdk",
                       {{"bounded", 9, 0.25, 0.125},

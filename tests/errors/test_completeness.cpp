@@ -80,6 +80,9 @@ constexpr std::array without_model{
 constexpr std::array of_the_machine{
     "cannot be opened: {}",
     "cannot be read to its end",
+    "error: CXXFLAGS holds {}, with which a program cannot see that a number is not finite and loses its compensated "
+    "sums\n"
+    "hint: leave it out; -O3 -march=native is as fast here",
     "error: Eigen's headers (Eigen/Core) were not found\nhint: set LAGEN_EIGEN_INCLUDE to the folder that holds Eigen/",
     "error: a program of the chart ended with exit code {}\n{}",
     "error: cannot make a folder in '{}': {}",
@@ -89,6 +92,7 @@ constexpr std::array of_the_machine{
     "error: gnuplot failed with exit code {}\n{}",
     "error: the C++ compiler '{}' could not be started: {}",
     "error: the C++ compiler failed with exit code {}\n{}\n{}{}",
+    "error: the compiled model could not be loaded: {}\nhint: remove '{}' to have it compiled again",
     "error: the compiled scene could not be started: {}\nhint: remove '{}' to have it compiled again",
     "error: the compiled scene ended with exit code {}\n{}",
     "error: the example models were not found\nhint: set LAGEN_MODELS to their folder",

@@ -102,7 +102,8 @@ const Arrows& planned_arrows()
         {"pipeline", {"elaborate", "equations", "kernels", "advice", "scene", "emit"}},
         {"stability", {"diagnostic", "runtime"}},
         {"linear", {}},
-        {"commands", {"pipeline", "stability", "linear"}},
+        {"methods", {"program"}},
+        {"commands", {"pipeline", "methods", "stability", "linear"}},
         {"runtime", {}},
         {"program", {"runtime"}},
     };
@@ -120,7 +121,7 @@ const Arrows& planned_folder_arrows()
         {"graph/series", {"graph/unknowns"}},
         {"graph/terms", {"graph/core"}},
         {"graph", {"graph/simplify", "graph/series"}},
-        {"commands/line", {}},
+        {"commands/line", {"commands/machine"}},
         {"commands/machine", {}},
         {"commands/scene", {"commands/line", "commands/machine"}},
         {"commands/plot", {"commands/scene"}},

@@ -12,7 +12,7 @@ using namespace lagen::house;
 
 namespace {
 
-constexpr std::size_t largest_allowed = 400;
+constexpr std::size_t largest_allowed = 600;
 
 const std::vector<std::string>& hand_written()
 {
@@ -53,7 +53,7 @@ TEST_CASE("every C++ file and script names its licence in its first lines")
     CHECK(checked > 40);
 }
 
-TEST_CASE("no hand-written file is longer than 400 lines")
+TEST_CASE("no hand-written file is longer than 600 lines")
 {
     for (const SourceText& text : read_tree(hand_written())) {
         if (text.path.starts_with("tests/golden/") || text.path == "docs/messages.md" || text.path == "docs/gallery.md")

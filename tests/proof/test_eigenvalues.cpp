@@ -87,7 +87,7 @@ TEST_CASE("Jordan blocks in any frame are found with their multiplicities")
         while (J.size() < 4 + random() % 6) {
             const std::size_t size = 1 + random() % 5;
             const Rational a = Rational(static_cast<int>(random() % 9) - 4) / (trial % 3 == 0 ? 10 : 1);
-            const Rational b = trial % 2 * (random() % 3);
+            const Rational b = trial % 2 * static_cast<int>(random() % 3);
             const std::size_t rows = size * (b == 0 ? 1 : 2), at = J.size();
             J.resize(at + rows);
             for (auto& row : J) row.resize(at + rows);

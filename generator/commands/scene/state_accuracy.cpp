@@ -64,6 +64,7 @@ std::optional<StateAccuracy> accuracy_of(const Table& run, const Table& second, 
     }
     if (distances.empty()) return std::nullopt;
     const double most = *std::ranges::max_element(distances);
+    if (!by_number && distances.size() == 1 && most == 0) return std::nullopt; // the start, it seems
     StateAccuracy accuracy{most > 0 ? most / size : 0};
     const auto first = std::ranges::find_if(distances, [&](double each) { return each > lost * size; });
     if (first != distances.end()) {

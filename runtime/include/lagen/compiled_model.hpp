@@ -10,6 +10,8 @@
 /// A model may come in several parts, each a shared object with some of the kernels: the first has the right-hand side.
 #pragma once
 
+#include "lagen/requirements.hpp"
+
 #include "lagen/compiled_model.h"
 #include "lagen/kernel.hpp"
 #include "lagen/loaded_library.hpp"

@@ -3,6 +3,8 @@
 /// of the system does not look at is looked at before: a file that was cut off would end the process by a signal.
 #pragma once
 
+#include "lagen/requirements.hpp"
+
 #include "lagen/compiled_model.h"
 
 #include <dlfcn.h>

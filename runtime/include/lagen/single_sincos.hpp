@@ -7,6 +7,8 @@
 /// float.
 #pragma once
 
+#include "lagen/requirements.hpp"
+
 #include <array>
 #include <bit>
 #include <cstddef>

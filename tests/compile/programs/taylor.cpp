@@ -44,7 +44,7 @@ std::vector<Digits50> numbers(const std::vector<const char*>& texts)
 template <template <class> class Model, class S>
 auto start(const std::vector<Digits50>& initial)
 {
-    typename Model<S>::State s;
+    typename Model<S>::State s = Model<S>::State::Zero(); // at rest but for these
     for (std::size_t i = 0; i < initial.size(); ++i) s[static_cast<int>(i)] = static_cast<S>(initial[i]);
     return s;
 }
