@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The second run of a model reads what the first one proved, and proves again what rested on other values.
+#include "commands/machine/compile_cache.hpp"
 #include "program.hpp"
 
 #include <catch2/catch.hpp>
@@ -57,7 +58,7 @@ TEST_CASE("the second run reads a record, whatever the values; a lost program or
     const fs::path file = cache.records()[0];
     const std::string record = content_of(file);
     // A word in the record shows who reads it.
-    std::ofstream(file, std::ios::app) << "warning=this was read\n";
+    lagen::keep_text(file.string(), *lagen::kept_text(file.string()) + "warning=this was read\n");
     const Outcome second = cache.run({});
     CHECK(second.out == first.out);
     CHECK_THAT(second.err, Catch::StartsWith("warning: this was read\n"));
@@ -91,7 +92,7 @@ TEST_CASE("the second run reads a record, whatever the values; a lost program or
     check_made_again("the program is gone");
     std::ofstream(file) << "warning=this was read\n";
     check_made_again("the record is another file");
-    std::ofstream(file, std::ios::app) << "warning=this was read\n";
+    lagen::keep_text(file.string(), *lagen::kept_text(file.string()) + "warning=this was read\n");
     fs::resize_file(file, record.find("program=") + 12);
     check_made_again("the record ends early");
 }
