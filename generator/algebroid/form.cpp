@@ -127,8 +127,7 @@ std::vector<std::size_t> Differential::moving(NodeId f)
     for (const ColumnEntry& slope : partial_.of(f))
         sections.insert(sections.end(), movers_[slope.index].begin(), movers_[slope.index].end());
     std::ranges::sort(sections);
-    const auto repeated = std::ranges::unique(sections);
-    sections.erase(repeated.begin(), repeated.end());
+    sections.erase(std::unique(sections.begin(), sections.end()), sections.end());
     return sections;
 }
 
