@@ -15,7 +15,9 @@ std::variant<Regulator, NoRegulator> gain_of(const Matrix& A, const Matrix& B, c
 {
     const LinearSystem system = linear_system(A, B, Matrix(0, A.rows()));
     const Eigen::VectorXcd values = A.eigenvalues();
-    return regulator(system, modes_of(system, {values.begin(), values.end()}), Q, R);
+    std::vector<MultipleEigenvalue> each;
+    for (const auto& value : values) each.push_back({value});
+    return regulator(system, modes_of(system, each), Q, R);
 }
 
 Matrix one(double value)

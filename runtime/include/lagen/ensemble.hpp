@@ -60,8 +60,7 @@ requires GoesAbreast<M, Method>
 void integrate_blocks(const M& model, MakeState& make_state, Interval<real_t<typename M::Scalar>> span,
                       const Method& method, const Options<M>& options, Source& source)
 {
-    struct Nobody {
-    } nobody;
+    Nobody nobody;
     struct Place {
         EnsembleBlock<M>* block = nullptr;
         std::size_t index = 0;

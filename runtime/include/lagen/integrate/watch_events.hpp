@@ -47,11 +47,14 @@ class EventWatch {
     /// Every request has a function: an index within the model's events, or its own.
     [[nodiscard]] bool is_valid() const noexcept
     {
-        return std::all_of(requests_.begin(), requests_.end(), [this](const Request& request) {
-            if (request.when) return true;
-            if constexpr (HasEvents<M>) return request.index < values_.model().events_names.size();
+        for (const Request& request : requests_) {
+            if (request.when) continue;
+            if constexpr (HasEvents<M>) {
+                if (request.index < values_.model().events_names.size()) continue;
+            }
             return false;
-        });
+        }
+        return true;
     }
 
     /// At the start of a run, h being a time in its direction, or where one goes on: then what is still before its zero
