@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// What a long computation is doing, for a program that shows it: rooms say it, and know of no terminal.
+/// Rooms say here what a long computation is doing, for a program that shows it; they know of no terminal.
 ///
 ///   Activity activity("deciding jacobi", residuals.size());
 ///   for (const Residual& residual : residuals) { activity.next(); decide(residual); }

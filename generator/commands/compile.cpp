@@ -5,7 +5,6 @@
 #include "commands/line/options.hpp"
 #include "commands/machine/places.hpp"
 #include "commands/machine/write_file.hpp"
-#include "commands/scene/scene_options.hpp"
 #include "commands/scene/scene_program.hpp"
 #include "model/form.hpp"
 #include "model/scene_form.hpp"

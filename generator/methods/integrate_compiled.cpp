@@ -4,8 +4,7 @@
 #include "lagen_run/driver.hpp"
 #include "methods/method_list.hpp"
 
-#include <algorithm>
-#include <exception>
+#include <utility>
 
 namespace lagen {
 
@@ -31,7 +30,7 @@ CompiledRun integrate_compiled(const std::string& path, const std::string& type,
                                const volatile std::sig_atomic_t* signal)
 {
     CompiledRun run;
-    const CompiledModel::Loaded loaded = CompiledModel::load(path);
+    CompiledModel::Loaded loaded = CompiledModel::load(path);
     if (loaded.status != LoadStatus::ok) {
         run.not_loaded = to_text(loaded.status);
         return run;
@@ -39,7 +38,7 @@ CompiledRun integrate_compiled(const std::string& path, const std::string& type,
     std::visit(
         [&](auto method) {
             detail::DrivePlan<CompiledModel> plan;
-            plan.model = loaded.model;
+            plan.model = std::move(loaded.model);
             run.complaint = detail::make_plan(given, plan, method);
             if (!run.complaint.empty()) return;
             Status status = Status::ok;

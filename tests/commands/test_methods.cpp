@@ -38,12 +38,12 @@ TEST_CASE("the rows of a run by a method of lagen are those of the program of a 
     for (const auto& [type, method] : asked) {
         INFO(type);
         REQUIRE(integrates_compiled(type));
-        std::vector<std::string> once{"run", "heavy_top.toml", "--at", "3", "--no-second-run"};
+        std::vector<std::string> once{"run", "heavy_top.toml", "--t-end", "3", "--at", "3", "--no-second-run"};
         once.insert(once.end(), method.begin(), method.end());
         const Outcome run = call(once);
         REQUIRE(run.code == 0);
-        std::vector<std::string> many{"sweep", "heavy_top.toml", "--t-end", "3",
-                                      "--set", "mgl=1.7:1.7:1",  "-o",      "a.csv"};
+        std::vector<std::string> many{
+            "sweep", models_folder() + "/heavy_top.toml", "--t-end", "3", "--set", "mgl=1.7:1.7:1", "-o", "a.csv"};
         many.insert(many.end(), method.begin(), method.end());
         const Outcome sweep = call(many, {.folder = folder});
         INFO(sweep.err);

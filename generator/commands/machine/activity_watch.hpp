@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// What lasts longer than two seconds is shown on one line of standard error, where that is a terminal, until it ends.
+/// A computation of more than two seconds is shown on one line of standard error, where that is a terminal, until it
+/// ends.
 #pragma once
 
 namespace lagen {

@@ -154,7 +154,7 @@ std::vector<std::string> command_of(const ProgramText& text)
     return compile_command(options);
 }
 
-/// That of the models which are compiled by this command.
+/// The precompiled header of the models that this command compiles.
 PrecompiledHeader precompiled_header(const std::string& cache, const std::vector<std::string>& command)
 {
     ContentHash hash;

@@ -48,7 +48,7 @@ std::string seal_of(std::string_view content)
     return fmt::format("\n# whole: {}\n", ContentHash().add(content).hex32());
 }
 
-/// Whether `content` ends with the seal of the rest.
+/// True where `content` ends with the seal of the rest.
 bool is_sealed(std::string_view content)
 {
     static const std::size_t length = seal_of("").size();

@@ -3,24 +3,19 @@
 /// that were held back before. One at a time.
 #pragma once
 
-#include <array>
-#include <csignal>
+#include "commands/machine/temporary_folder.hpp"
 
 namespace lagen {
 
 class InterruptFlag {
   public:
     InterruptFlag();
-    ~InterruptFlag();
-    InterruptFlag(const InterruptFlag&) = delete;
-    InterruptFlag& operator=(const InterruptFlag&) = delete;
 
     /// Not zero where one of them came.
     [[nodiscard]] const volatile std::sig_atomic_t* flag() const;
 
   private:
-    std::array<struct sigaction, 3> before_{};
-    sigset_t mask_before_{};
+    InterruptsAnswered answered_;
 };
 
 } // namespace lagen

@@ -14,7 +14,7 @@ class PrecompiledHeader {
     /// the compiler apart from others.
     PrecompiledHeader(const std::string& cache, const std::string& key);
 
-    /// Whether it is there and whole; it counts as used just now.
+    /// True where the precompiled header is there and whole; it then counts as used just now.
     [[nodiscard]] bool is_ready() const;
     /// The arguments of the compiler that use it.
     [[nodiscard]] std::vector<std::string> arguments() const;

@@ -41,33 +41,16 @@ extern "C" void on_interrupt_of_child(int)
 /// Interrupts, also those that were held back before, go to the children while this lives; a second one kills them.
 class InterruptsForwarded {
   public:
-    InterruptsForwarded()
-    {
-        interrupts = 0;
-        struct sigaction action {};
-        action.sa_handler = on_interrupt_of_child;
-        sigaction(SIGINT, &action, &before_int_);
-        sigaction(SIGTERM, &action, &before_term_);
-        sigaction(SIGHUP, &action, &before_hup_);
-        const sigset_t signals = interrupt_signals();
-        sigprocmask(SIG_UNBLOCK, &signals, &before_mask_);
-    }
+    InterruptsForwarded() : answered_((interrupts = 0, on_interrupt_of_child)) {}
     ~InterruptsForwarded()
     {
         for (volatile pid_t& child : running_children) child = 0;
-        sigprocmask(SIG_SETMASK, &before_mask_, nullptr);
-        sigaction(SIGINT, &before_int_, nullptr);
-        sigaction(SIGTERM, &before_term_, nullptr);
-        sigaction(SIGHUP, &before_hup_, nullptr);
     }
     InterruptsForwarded(const InterruptsForwarded&) = delete;
     InterruptsForwarded& operator=(const InterruptsForwarded&) = delete;
 
   private:
-    struct sigaction before_int_ {};
-    struct sigaction before_term_ {};
-    struct sigaction before_hup_ {};
-    sigset_t before_mask_{};
+    InterruptsAnswered answered_;
 };
 
 struct Pipe {

@@ -13,11 +13,17 @@
 
 namespace lagen {
 
+namespace {
+
+constexpr std::array interrupts_of_users{SIGINT, SIGTERM, SIGHUP};
+
+} // namespace
+
 sigset_t interrupt_signals()
 {
     sigset_t signals;
     sigemptyset(&signals);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
+    for (const int signal : interrupts_of_users) sigaddset(&signals, signal);
     return signals;
 }
 
@@ -30,6 +36,22 @@ InterruptsHeld::InterruptsHeld()
 InterruptsHeld::~InterruptsHeld()
 {
     sigprocmask(SIG_SETMASK, &before_, nullptr);
+}
+
+InterruptsAnswered::InterruptsAnswered(void (*handler)(int))
+{
+    struct sigaction action {};
+    action.sa_handler = handler;
+    sigemptyset(&action.sa_mask);
+    for (std::size_t k = 0; k < before_.size(); ++k) ::sigaction(interrupts_of_users[k], &action, &before_[k]);
+    const sigset_t signals = interrupt_signals();
+    sigprocmask(SIG_UNBLOCK, &signals, &mask_before_);
+}
+
+InterruptsAnswered::~InterruptsAnswered()
+{
+    sigprocmask(SIG_SETMASK, &mask_before_, nullptr);
+    for (std::size_t k = 0; k < before_.size(); ++k) ::sigaction(interrupts_of_users[k], &before_[k], nullptr);
 }
 
 TemporaryFolder::TemporaryFolder(const std::string& parent, const std::string& stem)

@@ -2,6 +2,7 @@
 /// A folder of ours that is gone afterwards, whatever happens to the process short of SIGKILL.
 #pragma once
 
+#include <array>
 #include <csignal>
 #include <string>
 
@@ -18,6 +19,19 @@ class InterruptsHeld {
 
   private:
     sigset_t before_{};
+};
+
+/// Answers these signals by `handler` while it lives, also those that were held back before; then as before.
+class InterruptsAnswered {
+  public:
+    explicit InterruptsAnswered(void (*handler)(int));
+    ~InterruptsAnswered();
+    InterruptsAnswered(const InterruptsAnswered&) = delete;
+    InterruptsAnswered& operator=(const InterruptsAnswered&) = delete;
+
+  private:
+    std::array<struct sigaction, 3> before_{};
+    sigset_t mask_before_{};
 };
 
 /// The signals above.

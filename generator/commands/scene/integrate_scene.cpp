@@ -37,7 +37,7 @@ void use_folder(const TemporaryFolder& folder, ProgramInput& input)
     write_file(input.at_file, times);
 }
 
-/// What an interrupted run left: whole rows.
+/// Keeps the whole rows of an interrupted run.
 [[noreturn]] void end_interrupted(RunOutcome& outcome)
 {
     std::string& rows = outcome.table.rows;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// What an interrupted run leaves: the rows so far.
+/// An interrupted run leaves the rows that it has written so far.
 #pragma once
 
 #include "commands/line/options.hpp"

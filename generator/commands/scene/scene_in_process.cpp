@@ -51,12 +51,8 @@ detail::DriveArguments arguments_of(const ProgramInput& input)
     give_times(input.times, given);
     for (const std::vector<double>& row : input.held_inputs)
         given.input_rows.insert(given.input_rows.end(), row.begin(), row.end());
-    const std::vector<std::string> watched = watch_arguments(input);
-    for (std::size_t k = 0; k + 1 < watched.size(); k += 2)
-        if (watched[k] == "--events")
-            given.events = watched[k + 1];
-        else
-            given.columns = watched[k + 1];
+    given.events = events_text(input);
+    given.columns = columns_text(input);
     return given;
 }
 

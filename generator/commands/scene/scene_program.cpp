@@ -48,7 +48,7 @@ std::string events_of(const std::vector<Event>& events)
     return text;
 }
 
-std::string columns_text(const std::vector<TableColumn>& columns)
+std::string text_of_columns(const std::vector<TableColumn>& columns)
 {
     std::string text;
     for (const TableColumn& column : columns)
@@ -214,11 +214,21 @@ void use_values(ProgramInput& input, const Scene& scene, const SceneValues& valu
     input.absolute = values.absolute.value_or(standard_tolerance);
 }
 
+std::string events_text(const ProgramInput& input)
+{
+    return input.events == nullptr ? "" : events_of(*input.events);
+}
+
+std::string columns_text(const ProgramInput& input)
+{
+    return text_of_columns(input.columns);
+}
+
 std::vector<std::string> watch_arguments(const ProgramInput& input)
 {
     std::vector<std::string> arguments;
-    if (input.events != nullptr && !input.events->empty()) arguments = {"--events", events_of(*input.events)};
-    arguments.insert(arguments.end(), {"--columns", columns_text(input.columns)});
+    if (std::string events = events_text(input); !events.empty()) arguments = {"--events", std::move(events)};
+    arguments.insert(arguments.end(), {"--columns", columns_text(input)});
     return arguments;
 }
 

@@ -71,6 +71,10 @@ struct ProgramInput {
 /// sample_times (`stretch`) do.
 void use_values(ProgramInput& input, const Scene& scene, const SceneValues& values, StartState& start, bool stretch);
 
+/// The values of --events and --columns.
+[[nodiscard]] std::string events_text(const ProgramInput& input);
+[[nodiscard]] std::string columns_text(const ProgramInput& input);
+
 /// Events and columns, as the program takes them.
 [[nodiscard]] std::vector<std::string> watch_arguments(const ProgramInput& input);
 

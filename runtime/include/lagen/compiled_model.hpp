@@ -3,7 +3,7 @@
 /// process as a model whose number of lanes is known at run time:
 ///   auto [status, top] = lagen::CompiledModel::load("heavy_top.so");
 ///   if (status != lagen::LoadStatus::ok) ..
-///   top.parameter("mgl") = 9.81;
+///   top.set_parameter(3, 9.81);   // parameter_names()[3]
 ///   auto run = lagen::integrate(top, s, {0.0, 10.0}, lagen::Dop853{.tolerance = 1e-10});
 /// It satisfies the kernel contract with dimension = Eigen::Dynamic. Memory is taken when it is loaded or copied; a
 /// kernel takes none. Kernels of one object may use the same scratch, so every thread needs a copy of its own.
@@ -18,9 +18,10 @@
 #include "lagen/series.hpp"
 
 #include <array>
-#include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <memory>
+#include <new>
 #include <span>
 #include <string>
 #include <string_view>
@@ -45,12 +46,7 @@ class InstanceBytes {
         std::memcpy(bytes_.get(), other.bytes_.get(), size_);
     }
     InstanceBytes(InstanceBytes&&) noexcept = default;
-    InstanceBytes& operator=(const InstanceBytes& other)
-    {
-        if (size_ != other.size_) return *this = InstanceBytes(other);
-        std::memcpy(bytes_.get(), other.bytes_.get(), size_);
-        return *this;
-    }
+    InstanceBytes& operator=(const InstanceBytes&) = delete;
     InstanceBytes& operator=(InstanceBytes&&) noexcept = default;
     ~InstanceBytes() = default;
 
@@ -186,10 +182,10 @@ class CompiledModel {
     [[nodiscard]] Status follow(double t, const State& s) noexcept
     {
         Status status = Status::ok;
-        for (Part* part = follows_ ? parts_.data() : nullptr; part != nullptr && status == Status::ok;
-             part = part == &parts_.back() ? nullptr : part + 1)
-            if (part->table->follow != nullptr)
-                status = status_of(part->table->follow(part->instance.get(), t, s.data()));
+        if (!follows_) return status;
+        for (Part& part : parts_)
+            if (status == Status::ok && part.table->follow != nullptr)
+                status = status_of(part.table->follow(part.instance.get(), t, s.data()));
         return status;
     }
 
