@@ -131,7 +131,7 @@ std::string draw(const Options& options, const SceneRun& run, const RunOutcome& 
                  const std::vector<std::string>& overlaid, bool& whole)
 {
     if (!options.has("plot")) return "";
-    std::vector<PlottedRun> runs{{run.checked().model, run.scene(), run.record(), run.input(), outcome.table.count}};
+    std::vector<PlottedRun> runs{{run.checked().model, run.scene(), run.record(), run.input(), outcome.table.count()}};
     std::list<OverlaidRun> others;
     for (const std::string& name : overlaid) {
         const OverlaidRun& other = others.emplace_back(options, run.checked(), run.scene(), name);
@@ -196,7 +196,7 @@ ExitCode run_run(Arguments arguments)
     const std::vector<std::string> known = all_names(model);
     const InterruptsHeld held; // between programs, which they reach: rows are written first
     RunOutcome outcome = run.integrate();
-    if (is_interrupted(outcome)) return leave_rows(options, outcome.table, known, report_json(outcome), outcome.time);
+    if (is_interrupted(outcome)) return leave_rows(options, outcome.table, known, report_json(outcome), outcome.t);
     outcome.action = action_report(outcome, variations);
     if (const std::string file = options.get("output"); !file.empty())
         write_file(file, file.ends_with(".json") ? report_json(outcome) : to_csv(outcome.table, known));

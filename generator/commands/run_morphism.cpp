@@ -75,13 +75,10 @@ void refuse_variational(const Scene& scene)
 Table first_columns(const Table& table, std::size_t count)
 {
     Table part;
-    part.count = table.count;
     part.columns.assign(table.columns.begin(), table.columns.begin() + static_cast<std::ptrdiff_t>(count + 1));
-    for (const std::string_view line : table.lines()) {
-        std::size_t end = 0;
-        for (std::size_t k = 0; k <= count && end != std::string_view::npos; ++k)
-            end = line.find(',', k == 0 ? 0 : end + 1);
-        part.rows.append(line.substr(0, end)).append("\n");
+    for (std::size_t k = 0; k < table.count(); ++k) {
+        const std::span<const double> row = table.row(k).first(count + 1);
+        part.numbers.insert(part.numbers.end(), row.begin(), row.end());
     }
     return part;
 }
@@ -200,8 +197,8 @@ ExitCode run_morphism(const Options& options, const std::shared_ptr<const Source
     const InterruptsHeld held; // between programs, which they reach: rows are written first
     const WholeRun here = run_of(source, asked);
     if (is_interrupted(here.outcome))
-        return leave_rows(options, here.outcome.table, {}, report_of_source(here.outcome), here.outcome.time);
-    if (here.whole.count == 0) return tell_alone(options, here.outcome);
+        return leave_rows(options, here.outcome.table, {}, report_of_source(here.outcome), here.outcome.t);
+    if (here.whole.count() == 0) return tell_alone(options, here.outcome);
 
     LiftedTarget lifted;
     if (reconstruct) {
@@ -219,7 +216,7 @@ ExitCode run_morphism(const Options& options, const std::shared_ptr<const Source
     const RunComparison comparison = compare(projection, here.whole, there.whole);
     if (is_interrupted(there.outcome))
         return leave_rows(options, comparison.table, {}, report_of(options, here.outcome, there.outcome, comparison),
-                          there.outcome.time);
+                          there.outcome.t);
     tell(options, here.outcome, there.outcome, comparison);
     const bool done = succeeded(here.outcome.status) && succeeded(there.outcome.status);
     return done ? ExitCode::done : ExitCode::refuted;

@@ -5,6 +5,7 @@
 #include "commands/machine/places.hpp"
 #include "commands/machine/write_file.hpp"
 #include "commands/scene/preparation.hpp"
+#include "commands/scene/run_report.hpp"
 #include "commands/scene/scene_options.hpp"
 #include "commands/sweep/sweep_run.hpp"
 #include "elaborate/bind_parameters.hpp"

@@ -25,28 +25,20 @@ bool integrates_compiled(const std::string& type)
     return find(type) != nullptr;
 }
 
-CompiledRun integrate_compiled(const std::string& path, const std::string& type, const detail::DriveArguments& given,
-                               const std::function<void(std::string_view)>& rows,
-                               const volatile std::sig_atomic_t* signal)
+std::string integrate_compiled(const std::string& path, const std::string& type, const detail::RunJob& job,
+                               const detail::RowTaker& rows, const volatile std::sig_atomic_t* signal,
+                               detail::RunReport& report)
 {
-    CompiledRun run;
     CompiledModel::Loaded loaded = CompiledModel::load(path);
-    if (loaded.status != LoadStatus::ok) {
-        run.not_loaded = to_text(loaded.status);
-        return run;
-    }
-    std::visit(
-        [&](auto method) {
-            detail::DrivePlan<CompiledModel> plan;
-            plan.model = std::move(loaded.model);
-            run.complaint = detail::make_plan(given, plan, method);
-            if (!run.complaint.empty()) return;
-            Status status = Status::ok;
-            run.report = detail::run_plan(plan, method, given, rows, signal, status);
-            run.interrupted = status == Status::interrupted;
-        },
-        find(type)->method);
-    return run;
+    if (loaded.status != LoadStatus::ok) return to_text(loaded.status);
+    const auto run = [&](auto method) -> std::string {
+        detail::RunPlan<CompiledModel> plan;
+        plan.model = std::move(loaded.model);
+        if (!detail::make_plan(job, plan, method)) return "it is not that of this scene";
+        report = detail::run_plan(plan, method, job, rows, signal);
+        return {};
+    };
+    return std::visit(run, find(type)->method);
 }
 
 } // namespace lagen

@@ -4,12 +4,11 @@
 /// bits of a program that was compiled with the header (commands/machine/compile.hpp: rounding_options).
 #pragma once
 
-#include "lagen_run/arguments.hpp"
+#include "lagen_run/job.hpp"
+#include "lagen_run/report.hpp"
 
 #include <csignal>
-#include <functional>
 #include <string>
-#include <string_view>
 
 namespace lagen {
 
@@ -17,20 +16,12 @@ namespace lagen {
 /// (groups, discrete motions, exact flows) are compiled with their model.
 [[nodiscard]] bool integrates_compiled(const std::string& type);
 
-/// What a run left besides its rows.
-struct CompiledRun {
-    std::string not_loaded; ///< why the model could not be loaded, as to_text(LoadStatus); empty where it was
-    std::string complaint;  ///< what is wrong with what it was given; then there is no report
-    std::string report;     ///< as lagen_run/driver.hpp describes it
-    bool interrupted = false;
-};
-
-/// The run that `given` asks for, over the compiled model of this path, with a method for which integrates_compiled is
-/// true. The rows go to `rows`, one after another; a signal that is not zero ends the run. (Names of the runtime stay
-/// out of here: some are those of other things in the rooms around.)
-[[nodiscard]] CompiledRun integrate_compiled(const std::string& path, const std::string& type,
-                                             const detail::DriveArguments& given,
-                                             const std::function<void(std::string_view)>& rows,
-                                             const volatile std::sig_atomic_t* signal);
+/// The run that the job asks for, over the compiled model of this path, with a method for which integrates_compiled is
+/// true. The rows go to `rows`, one after another; a signal that is not zero ends the run. Answers why the model could
+/// not be loaded, or nothing. (Names of the runtime stay out of here: some are those of other things in the rooms
+/// around.)
+[[nodiscard]] std::string integrate_compiled(const std::string& path, const std::string& type,
+                                             const detail::RunJob& job, const detail::RowTaker& rows,
+                                             const volatile std::sig_atomic_t* signal, detail::RunReport& report);
 
 } // namespace lagen

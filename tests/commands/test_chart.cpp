@@ -147,24 +147,6 @@ TEST_CASE("where peers were charted, the text says what the best of them takes b
     CHECK_THAT(text, !Catch::Contains("error 1e-06:")); // no peer comes within
 }
 
-TEST_CASE("points are read as a chart's program prints them")
-{
-    const std::vector<lagen::ChartPoint> points = lagen::read_points(
-        "point=rk4\nparameter=0.5\nstatus=ok\nerror=0.25\nsteps=2\nrejected=0\nrhs_calls=8\nseconds=1e-06\n"
-        "energy=3,0.125,1,0,0,3,\ninvariant:area=1,0.5,1,0,0,1,\npoint=euler\nparameter=0.125\nstatus=non_"
-        "finite\nsteps=7\nrejected=1\n"
-        "rhs_calls=7\nseconds=2e-06\n");
-    REQUIRE(points.size() == 2);
-    CHECK(points[0].method == "rk4");
-    CHECK(points[0].error == 0.25);
-    CHECK(points[0].rhs_calls == 8);
-    CHECK(points[0].drifts == std::vector<std::pair<std::string, double>>{{"energy", 0.125}, {"area", 0.5}});
-    CHECK(points[1].status == "non_finite");
-    CHECK(points[1].parameter == 0.125);
-    CHECK(points[1].rejected == 1);
-    CHECK_FALSE(points[1].error);
-}
-
 TEST_CASE("--accuracy takes the cheapest method within it, and says where there is none")
 {
     const lagen::KeptChart kept = lagen::kept_chart(small_chart());
@@ -216,11 +198,11 @@ TEST_CASE("a kept chart is read as it was written, and other files are none")
 
 TEST_CASE("the distance of two tables is that of their rows, relative to the second")
 {
-    const lagen::Table a{{"t", "x", "y"}, "0,3,4\n1,0,1\n", 2}, b{{"t", "x", "y"}, "0,3,4.5\n1,0,2\n", 2};
-    CHECK(lagen::row_distance(a, b) == 0.5);
-    CHECK(lagen::row_distance(a, a) == 0);
-    CHECK(std::isinf(lagen::row_distance(a, {})));
-    CHECK(lagen::row_distance({{"t", "x"}, "0,0.25\n", 1}, {{"t", "x"}, "0,0\n", 1}) == 0.25);
+    const lagen::Table a{{"t", "x", "y"}, {0, 3, 4, 1, 0, 1}}, b{{"t", "x", "y"}, {0, 3, 4.5, 1, 0, 2}};
+    CHECK(lagen::table_distance(a, b) == 0.5);
+    CHECK(lagen::table_distance(a, a) == 0);
+    CHECK(std::isinf(lagen::table_distance(a, {})));
+    CHECK(lagen::table_distance({{"t", "x"}, {0, 0.25}}, {{"t", "x"}, {0, 0}}) == 0.25);
 }
 
 TEST_CASE("the errors of a chart are those of lagen run against 28 digits", "[chart]")

@@ -4,6 +4,8 @@
 
 #include "activity.hpp"
 #include "commands/machine/activity_watch.hpp"
+#include "lagen_run/archive.hpp"
+#include "lagen_run/report.hpp"
 #include "support/golden.hpp"
 
 #include <catch2/catch.hpp>
@@ -40,12 +42,15 @@ std::string script(const std::string& body)
 /// A compiler whose programs report success and do nothing else, and which counts its calls in `witness`.
 std::string quick_compiler(const std::string& witness)
 {
+    lagen::detail::RunReport done;
+    done.status = "ok";
+    const std::string report = fresh_folder() + "/report";
+    write_text(report, lagen::detail::packed(done));
     return script("echo called >>" + witness + R"(
 while [ "$1" != -o ]; do shift; done
 cat >"$2" <<'END'
 #!/bin/sh
-while [ "$1" != --report ]; do shift; done
-echo status=ok >"$2"
+cp )" + report + R"( "$2"
 END
 chmod +x "$2"
 )");

@@ -2,11 +2,14 @@
 /// What a run says its state is worth, by a second run, and of lanes below the absolute tolerance.
 #include "program.hpp"
 
+#include "lagen_run/archive.hpp"
+#include "lagen_run/report.hpp"
 #include "support/golden.hpp"
 #include "support/json.hpp"
 
 #include <catch2/catch.hpp>
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -57,18 +60,26 @@ tolerance = 1e-8
 )-" + scene);
 }
 
-/// A compiler whose program gives two rows, and where it is told the tolerance 1e-11 waits for an end.
+/// A compiler whose program gives two rows, and called again waits for an end.
 std::string waiting_compiler()
 {
-    const std::string path = fresh_folder() + "/compiler";
+    const std::string folder = fresh_folder(), path = folder + "/compiler";
+    lagen::detail::RunReport report;
+    report.status = "ok";
+    report.t = report.failed_at = 1;
+    report.steps = 2;
+    report.state = {1, 1};
+    write_text(folder + "/report", lagen::detail::packed(report));
+    write_text(folder + "/rows", lagen::detail::packed(std::array{0.0, 1.0, 0.0, 1.0, 0.5, 0.25}).substr(8));
     write_text(path, R"(#!/bin/sh
 while [ "$1" != -o ]; do shift; done
 cat >"$2" <<'END'
 #!/bin/sh
-case " $* " in *" --relative 1e-11 "*) sleep 27.1828 ;; esac
-while [ "$1" != --report ]; do shift; done
-printf 'status=ok\nt=1\nfailed_at=1\nsteps=2\nrejected=0\nrhs_calls=9\nseconds=0.1\nstate=1,1\n' >"$2"
-printf '0,1,0\n1,0.5,0.25\n'
+cd )" + folder + R"( || exit
+[ ! -e called ] || sleep 27.1828
+touch called
+cp report "$2"
+cat rows
 END
 chmod +x "$2"
 )");

@@ -5,6 +5,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
+#include <cstdlib>
 #include <optional>
 #include <string>
 
@@ -12,9 +14,20 @@ using namespace lagen;
 
 namespace {
 
+/// Rows of t, x, y; nothing between commas is no finite number.
 Table table(const std::string& rows)
 {
-    return {{"t", "x", "y"}, rows, 0};
+    Table made{{"t", "x", "y"}, {}};
+    std::string field;
+    for (const char c : rows) {
+        if (c != ',' && c != '\n') {
+            field += c;
+            continue;
+        }
+        made.numbers.push_back(field.empty() ? NAN : std::strtod(field.c_str(), nullptr));
+        field.clear();
+    }
+    return made;
 }
 
 std::string told(const std::string& rows, const std::string& finer, bool by_number = false)
@@ -23,7 +36,7 @@ std::string told(const std::string& rows, const std::string& finer, bool by_numb
     return accuracy ? text_of(*accuracy) + " " + json_of(*accuracy) : "nothing";
 }
 
-RunOutcome that_took(const std::string& seconds)
+RunOutcome that_took(double seconds)
 {
     RunOutcome outcome;
     outcome.seconds = seconds;
@@ -68,8 +81,8 @@ TEST_CASE("what is no finite number in a row is left out, and a row without colu
 
 TEST_CASE("no second run is made unasked where the first one took more than five seconds")
 {
-    CHECK(reason_for_one_run(that_took("4.9"), SecondRun::short_runs).empty());
-    CHECK(reason_for_one_run(that_took("7.31"), SecondRun::short_runs) ==
+    CHECK(reason_for_one_run(that_took(4.9), SecondRun::short_runs).empty());
+    CHECK(reason_for_one_run(that_took(7.31), SecondRun::short_runs) ==
           "not estimated, the run took 7.3 s; --second-run makes a second one");
-    CHECK(reason_for_one_run(that_took("7.31"), SecondRun::always).empty());
+    CHECK(reason_for_one_run(that_took(7.31), SecondRun::always).empty());
 }

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The program behind `lagen run`: arguments, rows, report, exit codes.
+/// A run of a scene by its job: rows and report; and the program of one model: files and exit codes.
 #include "lagen_run/driver.hpp"
 #include "support/problems.hpp"
 
 #include <catch2/catch.hpp>
+
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <new>
+#include <span>
 #include <sstream>
 #include <unistd.h>
 
@@ -55,197 +59,228 @@ struct WithJacobian : Bare {
     void jacobian_values(double, const State&, std::array<double, 1>& values) const noexcept { values = {0}; }
 };
 
-std::string slurp(const std::filesystem::path& path)
-{
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
-
-struct Outcome {
-    int code;
-    std::string out, err, report;
+/// A run in this process: rows, and the report.
+struct Ran {
+    bool fits = false;
+    std::vector<std::vector<double>> rows;
+    detail::RunReport report;
 };
 
-/// Runs the program in this process with its streams in files; a report goes to a file where one is wanted.
 template <class M, class Method>
-Outcome drive_with(std::vector<std::string> arguments)
+Ran ran(const detail::RunJob& job)
 {
-    const auto folder = std::filesystem::temp_directory_path() / ("lagen_driver_test_" + std::to_string(getpid()));
-    std::filesystem::create_directories(folder);
-    arguments.insert(arguments.begin(), {"run", "--report", (folder / "report").string()});
-    std::vector<char*> pointers;
-    for (std::string& argument : arguments) pointers.push_back(argument.data());
-    const auto redirect = [](std::FILE* stream, const std::filesystem::path& path) {
-        std::fflush(stream);
-        const int kept = dup(fileno(stream));
-        std::FILE* file = std::fopen(path.c_str(), "w");
-        dup2(fileno(file), fileno(stream));
-        std::fclose(file);
-        return kept;
-    };
-    const auto restore = [](std::FILE* stream, int kept) {
-        std::fflush(stream);
-        dup2(kept, fileno(stream));
-        close(kept);
-    };
-    const int out = redirect(stdout, folder / "out"), err = redirect(stderr, folder / "err");
-    const int code = drive<M, Method>(static_cast<int>(pointers.size()), pointers.data());
-    restore(stdout, out);
-    restore(stderr, err);
-    Outcome outcome{code, slurp(folder / "out"), slurp(folder / "err"), slurp(folder / "report")};
-    std::filesystem::remove_all(folder);
-    return outcome;
+    Ran result;
+    detail::RunPlan<M> plan;
+    Method method{};
+    result.fits = detail::make_plan(job, plan, method);
+    if (!result.fits) return result;
+    const auto take = [&](std::span<const double> row) { result.rows.emplace_back(row.begin(), row.end()); };
+    result.report = detail::run_plan(plan, method, job, take, nullptr);
+    return result;
 }
 
-/// The report without the line of the clock.
-std::string without_seconds(const std::string& report)
+/// A run from 0 to `end` with so many rows.
+detail::RunJob job_from(std::vector<double> initial, double end, double step, std::size_t rows)
 {
-    const std::size_t begin = report.find("seconds="), end = report.find('\n', begin);
-    return report.substr(0, begin) + report.substr(end + 1);
+    detail::RunJob job;
+    for (std::size_t k = 0; k < initial.size(); ++k) job.columns.push_back({false, k});
+    job.initial = std::move(initial);
+    job.end = end;
+    job.step = step;
+    job.rows.count = rows;
+    return job;
 }
+
+/// A run of the pendulum with an event.
+detail::RunJob swing(double end, const std::string& event, int direction, bool stop)
+{
+    detail::RunJob job = job_from({0.5, 0}, end, 0, 4);
+    job.parameters = {3};
+    job.relative = job.absolute = 1e-12;
+    job.events = {{event, direction, stop, 1}};
+    return job;
+}
+
+using Rows = std::vector<std::vector<double>>;
 
 } // namespace
 
-TEST_CASE("The driver writes rows and a report")
+TEST_CASE("A run gives rows and a report")
 {
-    const auto run = drive_with<Bare, Rk4>({"--initial", "0x1p-1", "--end", "1", "--step", "0.25", "--samples", "3"});
-    CHECK(run.code == 0);
-    CHECK(run.out == "0,0.5\n0.5,1\n1,1.5\n");
-    CHECK(without_seconds(run.report) ==
-          "status=ok\nt=1\nfailed_at=1\nsteps=4\nrejected=0\nrhs_calls=16\nrows=3\nstate=1.5\n");
-}
-
-TEST_CASE("Numbers of rows and report are the shortest that read back, and what a run throws is a sentence")
-{
-    const auto run = drive_with<Bare, Rk4>({"--initial", "0.1", "--end", "0.3", "--step", "0.3", "--samples", "2"});
-    CHECK(run.out == "0,0.1\n0.3,0.4\n");
-    const auto greedy = drive_with<Greedy, Rk4>(
-        {"--initial", "0.5,0", "--end", "1", "--step", "0.25", "--columns", "o0", "--samples", "3"});
-    CHECK(greedy.code == 5);
-    CHECK(greedy.err == "error: the scene cannot be integrated: std::bad_alloc\n");
+    const Ran run = ran<Bare, Rk4>(job_from({0.5}, 1, 0.25, 3));
+    CHECK(run.rows == Rows{{0, 0.5}, {0.5, 1}, {1, 1.5}});
+    CHECK(run.report.status == "ok");
+    CHECK(run.report.t == 1);
+    CHECK(run.report.failed_at == 1);
+    CHECK(run.report.steps == 4);
+    CHECK(run.report.rejected == 0);
+    CHECK(run.report.rhs_calls == 16);
+    CHECK(run.report.newton == 0);
+    CHECK(run.report.state == std::vector<double>{1.5});
+    CHECK(run.report.invariants.empty());
 }
 
 TEST_CASE("The report of an implicit method says what its calls were spent on")
 {
     // Two Newton iterations for the first step, one to confirm the prediction of each other one.
-    const auto run =
-        drive_with<WithJacobian, Gauss2>({"--initial", "0.5", "--end", "1", "--step", "0.25", "--samples", "3"});
-    CHECK(run.code == 0);
-    CHECK(without_seconds(run.report) == "status=ok\nt=1\nfailed_at=1\nsteps=4\nrejected=0\nrhs_calls=5\nnewton=5\n"
-                                         "decompositions=4\nrows=3\nstate=1.5\n");
+    const Ran run = ran<WithJacobian, Gauss2>(job_from({0.5}, 1, 0.25, 3));
+    CHECK(run.report.rhs_calls == 5);
+    CHECK(run.report.newton == 5);
+    CHECK(run.report.decompositions == 4);
 }
 
-TEST_CASE("The driver reports events, energy, invariants and constraints, and picks columns")
+TEST_CASE("A run tells events, energy, invariants and constraints, and picks columns")
 {
-    const auto run = drive_with<Full, Dop853>({"--initial", "0.5,0", "--parameters", "3", "--end", "4", "--interval",
-                                               "1.5", "--relative", "1e-12", "--absolute", "1e-12", "--columns",
-                                               "o1,s0,o0", "--events", "bottom:falling:0:1,turn:rising:1:1"});
-    CHECK(run.code == 0);
-    CHECK(run.out.starts_with("0,3,0.5,1\n1.5,3,"));
-    // Rows at 0, 1.5 and 3, and one more at the event.
-    CHECK(std::count(run.out.begin(), run.out.end(), '\n') == 4);
-    CHECK(run.out.find("\n3.19") != std::string::npos);
-    CHECK(run.report.find("\nrows=4\n") != std::string::npos);
-    CHECK(run.report.starts_with("status=stopped_by_event\nt=3.19"));
-    CHECK(run.report.find("\nevent=bottom@1.59") != std::string::npos);
-    CHECK(run.report.find("\nevent=turn@3.19") != std::string::npos);
-    CHECK(run.report.find("\nenergy=-0.877582561890372") != std::string::npos);
-    CHECK(run.report.find("\ninvariant:zero=0,3.19") != std::string::npos);
-    CHECK(run.report.find("\nconstraint:x=0.5,0.5") != std::string::npos);
+    detail::RunJob job = swing(4, "bottom", -1, false);
+    job.events.push_back({"turn", 1, true, 1});
+    job.rows = {detail::RowsAsked::Kind::interval, 0, 1.5, {}};
+    job.columns = {{true, 1}, {false, 0}, {true, 0}};
+    const Ran run = ran<Full, Dop853>(job);
+    REQUIRE(run.rows.size() == 4); // at 0, 1.5 and 3, and one more at the event
+    CHECK(run.rows[0] == std::vector<double>{0, 3, 0.5, 1});
+    CHECK(run.rows[1][0] == 1.5);
+    CHECK(run.rows[3][0] == run.report.t);
+    CHECK(run.report.status == "stopped_by_event");
+    CHECK(run.report.t == Approx(3.19).epsilon(1e-2));
+    REQUIRE(run.report.events.size() == 2);
+    CHECK(run.report.events[0].name == "bottom");
+    CHECK(run.report.events[0].t == Approx(run.report.t / 2).epsilon(1e-10));
+    CHECK(run.report.events[1].name == "turn");
+    CHECK(run.report.events[1].after.empty());
+    REQUIRE(run.report.invariants.size() == 2);
+    CHECK(run.report.invariants[0].name == "energy");
+    CHECK(run.report.invariants[0].initial == Approx(-std::cos(0.5)).epsilon(1e-15));
+    CHECK(run.report.invariants[1].name == "zero");
+    CHECK(run.report.invariants[1].most == run.report.t);
+    REQUIRE(run.report.constraints.size() == 1);
+    CHECK(run.report.constraints[0].most == Approx(0.5).epsilon(1e-15));
 }
 
-TEST_CASE("Binary rows are native doubles")
+TEST_CASE("A run that cannot go on keeps its rows")
 {
-    const auto run = drive_with<Bare, Euler>(
-        {"--initial", "1", "--start", "2", "--end", "1", "--step", "0.5", "--samples", "2", "--format", "binary"});
-    REQUIRE(run.out.size() == 4 * sizeof(double));
-    std::array<double, 4> values{};
-    std::memcpy(values.data(), run.out.data(), run.out.size());
-    CHECK(values == std::array<double, 4>{2, 1, 1, 0});
+    detail::RunJob job = job_from({1, 0}, 10, 0.5, 201);
+    job.max_steps = 4;
+    const Ran run = ran<Full, Rk4>(job);
+    CHECK(run.report.status == "too_many_steps");
+    CHECK(run.report.t == 2);
+    CHECK(run.rows.size() == 41);
 }
 
-TEST_CASE("A run that cannot go on keeps its rows and exits 1")
+TEST_CASE("A job that does not fit the model is refused")
 {
-    const auto run = drive_with<Full, Rk4>({"--initial", "1,0", "--end", "10", "--step", "0.5", "--max-steps", "4"});
-    CHECK(run.code == 1);
-    CHECK(run.report.starts_with("status=too_many_steps\nt=2\n"));
-    CHECK(std::count(run.out.begin(), run.out.end(), '\n') == 41);
-}
-
-TEST_CASE("Wrong arguments are named in one sentence and exit 4")
-{
-    const auto complaint = [](std::vector<std::string> arguments) {
-        const auto run = drive_with<Full, Rk4>(std::move(arguments));
-        CHECK(run.code == 4);
-        CHECK(run.out.empty());
-        CHECK(run.report.empty());
-        return run.err;
+    const detail::RunJob good = job_from({1, 2}, 1, 1, 2);
+    CHECK(ran<Full, Rk4>(good).fits);
+    const auto refused = [&](auto change) {
+        detail::RunJob job = good;
+        change(job);
+        return !ran<Full, Rk4>(job).fits;
     };
-    CHECK(complaint({"--initial", "1", "--end", "1", "--step", "1"}) ==
-          "error: --initial: 1 numbers, 2 are required\n");
-    CHECK(complaint({"--initial", "1,x"}) == "error: --initial: \"x\" is not a finite number\n");
-    CHECK(complaint({"--initial", "1,nan"}) == "error: --initial: \"nan\" is not a finite number\n");
-    CHECK(complaint({"--initial", "1,2"}) == "error: --end is required\n");
-    CHECK(complaint({"--initial", "1,2", "--end", "1"}) ==
-          "error: --step: a positive step is required by this method\n");
-    CHECK(complaint({"--speed", "1"}) == "error: unknown argument \"--speed\"\n");
-    CHECK(complaint({"--end"}) == "error: --end: a value is required\n");
-    CHECK(complaint({"--initial", "1,2", "--end", "1", "--step", "1", "--columns", "s2"}) ==
-          "error: --columns: \"s2\" is neither a state lane nor an observable of the model\n");
-    CHECK(complaint({"--initial", "1,2", "--end", "1", "--step", "1", "--events", "top:any:0:1"}) ==
-          "error: --events: \"top:any:0:1\" is not name:direction:stop:count with an event of the model\n");
-    CHECK(complaint({"--initial", "1,2", "--end", "1", "--step", "1", "--interval", "1e-300"}) ==
-          "error: --interval: 1e-300 makes more than 1e8 rows\n");
-}
-
-TEST_CASE("A file of times that is not there exits 5")
-{
-    const auto run =
-        drive_with<Bare, Rk4>({"--initial", "1", "--end", "1", "--step", "1", "--at-file", "/nowhere/times"});
-    CHECK(run.code == 5);
-    CHECK(run.err == "error: --at-file: \"/nowhere/times\" could not be opened\n");
+    CHECK(refused([](detail::RunJob& job) { job.initial.pop_back(); }));
+    CHECK(refused([](detail::RunJob& job) { job.parameters = {1, 2}; }));
+    CHECK(refused([](detail::RunJob& job) { job.step = 0; }));
+    CHECK(refused([](detail::RunJob& job) { job.columns = {{false, 2}}; }));
+    CHECK(refused([](detail::RunJob& job) { job.events = {{"top", 0, false, 1}}; }));
+    CHECK(refused([](detail::RunJob& job) { job.rows = {detail::RowsAsked::Kind::interval, 0, 1e-300, {}}; }));
+    CHECK(refused([](detail::RunJob& job) { job.input_rows = {0, 1}; }));
 }
 
 TEST_CASE("The row of a stopping event is at its time exactly, once, and only where an event stops the run")
 {
-    const auto value_of = [](const std::string& report, const std::string& key) {
-        const std::size_t begin = report.find("\n" + key + "=") + key.size() + 2;
-        return report.substr(begin, report.find('\n', begin) - begin);
-    };
-    const std::vector<std::string> arguments{"--initial", "0.5,0",    "--parameters",  "3", "--end", "9", "--samples",
-                                             "4",         "--events", "bottom:any:1:1"};
-    const auto run = drive_with<Full, Dop853>(arguments);
-    const std::string time = value_of(run.report, "t");
-    CHECK(run.out.ends_with('\n' + time + ',' + value_of(run.report, "state") + '\n'));
-    const std::string event = value_of(run.report, "event"), head = "bottom@" + time + "@";
-    REQUIRE(event.starts_with(head));
-    CHECK(std::abs(std::stod(event.substr(head.size()))) < 1e-15);
-    auto backward = arguments;
-    backward[5] = "-9";
-    const auto mirrored = drive_with<Full, Dop853>(backward);
-    CHECK(value_of(mirrored.report, "t") == '-' + time);
-    CHECK(mirrored.out.find("\n-" + time + ',') != std::string::npos);
-    auto passed = arguments;
-    passed.back() = "bottom:any:0:1";
-    CHECK(drive_with<Full, Dop853>(passed).report.find("\nrows=4\n") != std::string::npos);
+    const Ran run = ran<Full, Dop853>(swing(9, "bottom", 0, true));
+    REQUIRE(run.report.events.size() == 1);
+    CHECK(run.rows.back()[0] == run.report.t);
+    CHECK(std::vector<double>(run.rows.back().begin() + 1, run.rows.back().end()) == run.report.state);
+    CHECK(run.report.events[0].t == run.report.t);
+    CHECK(std::abs(run.report.events[0].state[0]) < 1e-15);
+    const Ran mirrored = ran<Full, Dop853>(swing(-9, "bottom", 0, true));
+    CHECK(mirrored.report.t == -run.report.t);
+    CHECK(mirrored.rows.back()[0] == -run.report.t);
+    CHECK(ran<Full, Dop853>(swing(9, "bottom", 0, false)).rows.size() == 4);
 }
 
-TEST_CASE("Times of a file must run with the run; those outside the interval are left out, equal ones repeated")
+TEST_CASE("Times of rows outside the interval are left out, equal ones repeated")
 {
-    const auto folder = std::filesystem::temp_directory_path() / ("lagen_times_" + std::to_string(getpid()));
-    std::filesystem::create_directories(folder);
-    const std::string file = (folder / "times").string();
-    const auto rows = [&](const std::string& times, const std::string& end) {
-        std::ofstream(file) << times;
-        return drive_with<Bare, Rk4>({"--initial", "1", "--end", end, "--step", "0.25", "--at-file", file});
+    const auto rows = [](const std::vector<double>& times, double end) {
+        detail::RunJob job = job_from({1}, end, 0.25, 0);
+        job.rows = {detail::RowsAsked::Kind::at, 0, 0, times};
+        return ran<Bare, Rk4>(job).rows;
     };
-    CHECK(rows("-1, 0, 0.5 0.5\n2", "1").out == "0,1\n0.5,1.5\n0.5,1.5\n");
-    CHECK(rows("1 0 -0.5 -2", "-1").out == "0,1\n-0.5,0.5\n");
-    const auto wrong = rows("0 0.5 0.25", "1");
-    CHECK(wrong.code == 4);
-    CHECK(wrong.err == "error: --at-file: 0.25 stands after 0.5, times in the direction of the run are required\n");
-    CHECK(rows("0 nan", "1").err == "error: --at-file: \"" + file + "\" holds something that is not a finite number\n");
+    CHECK(rows({-1, 0, 0.5, 0.5, 2}, 1) == Rows{{0, 1}, {0.5, 1.5}, {0.5, 1.5}});
+    CHECK(rows({1, 0, -0.5, -2}, -1) == Rows{{0, 1}, {-0.5, 0.5}});
+}
+
+TEST_CASE("A structure is read as it was written, and bytes that are none are refused")
+{
+    detail::RunJob job = swing(9, "bottom", -1, true);
+    job.rows = {detail::RowsAsked::Kind::at, 0, 0, {1, 2}};
+    const std::string bytes = detail::packed(job);
+    detail::RunJob read;
+    std::string_view rest = bytes;
+    REQUIRE(detail::take_packed(rest, read));
+    CHECK(rest.empty());
+    CHECK(detail::packed(read) == bytes);
+    CHECK(read.events[0].name == "bottom");
+    for (const std::size_t size : {std::size_t{0}, std::size_t{7}, bytes.size() - 1}) {
+        rest = std::string_view(bytes).substr(0, size);
+        CHECK_FALSE(detail::take_packed(rest, read));
+    }
+    rest = "................................"; // sizes of 2e18
+    CHECK_FALSE(detail::take_packed(rest, read));
+    detail::RunReport report, known;
+    report.manifold = 0.5;
+    report.branches = std::vector<double>{1, 2};
+    const std::string told = detail::packed(report);
+    rest = told;
+    REQUIRE(detail::take_packed(rest, known));
+    CHECK(known.manifold == 0.5);
+    CHECK(known.branches->size() == 2);
+}
+
+TEST_CASE("The program of a model writes native doubles and a report, and exits with 4 and 5 where it cannot")
+{
+    const auto folder = std::filesystem::temp_directory_path() / ("lagen_driver_test_" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder);
+    const auto redirected = [&](std::FILE* stream, const char* name, const auto& call) {
+        std::fflush(stream);
+        const int kept = dup(fileno(stream));
+        std::FILE* file = std::fopen((folder / name).c_str(), "w");
+        dup2(fileno(file), fileno(stream));
+        std::fclose(file);
+        call();
+        std::fflush(stream);
+        dup2(kept, fileno(stream));
+        close(kept);
+    };
+    const auto content = [&](const char* name) {
+        std::ostringstream text;
+        text << std::ifstream(folder / name, std::ios::binary).rdbuf();
+        return text.str();
+    };
+    const auto exit_code = [&](auto program, const detail::RunJob& job, const std::string& report) {
+        const std::string file = (folder / "job").string();
+        REQUIRE(detail::write_bytes(file.c_str(), detail::packed(job)));
+        std::string arguments[] = {"program", file, report};
+        char* pointers[] = {arguments[0].data(), arguments[1].data(), arguments[2].data()};
+        int code = 0;
+        redirected(stdout, "out", [&] { redirected(stderr, "err", [&] { code = program(3, pointers); }); });
+        return code;
+    };
+    const std::string report = (folder / "report").string();
+    CHECK(exit_code(drive<Bare, Euler>, job_from({1}, -1, 0.5, 2), report) == 0);
+    std::array<double, 4> values{};
+    const std::string out = content("out");
+    REQUIRE(out.size() == sizeof values);
+    std::memcpy(values.data(), out.data(), out.size());
+    CHECK(values == std::array<double, 4>{0, 1, -1, 0});
+    detail::RunReport told;
+    REQUIRE(detail::read_packed(report.c_str(), told));
+    CHECK(told.steps == 2);
+    CHECK(exit_code(drive<Bare, Euler>, job_from({1, 2}, 1, 0.5, 2), report) == 4);
+    CHECK(content("err") == "error: a job for this model and the place of its report are required\n");
+    CHECK(exit_code(drive<Bare, Euler>, job_from({1}, 1, 0.5, 2), "/nowhere/report") == 5);
+    detail::RunJob much = job_from({0.5, 0}, 1, 0.25, 3);
+    much.columns = {{true, 0}};
+    CHECK(exit_code(drive<Greedy, Rk4>, much, report) == 5);
+    CHECK(content("err") == "error: the scene cannot be integrated: std::bad_alloc\n");
     std::filesystem::remove_all(folder);
 }

@@ -122,18 +122,15 @@ TEST_CASE("behind a jump a motion goes on by the row of its time")
     CHECK(run.state[0] == Approx(0.32 - 0.8 * 0.2 + 0.02 - 0.6 - 0.5).epsilon(1e-13));
 }
 
-TEST_CASE("a table of inputs that does not fit the model or the run is refused with a sentence")
+TEST_CASE("a table of inputs that does not fit the model or the run is refused")
 {
     detail::HeldInputs inputs;
     const Interval<double> span{0, 1};
-    CHECK(detail::plan_inputs({}, 1, span, inputs).empty());
-    CHECK(detail::plan_inputs({0, 1, 1}, 1, span, inputs) == "--inputs: rows of t and 1 inputs are required");
-    CHECK(detail::plan_inputs({0, 1, 0, 2}, 1, span, inputs) == "--inputs: increasing times are required");
+    CHECK(detail::plan_inputs({}, 1, span, inputs));
+    CHECK_FALSE(detail::plan_inputs({0, 1, 1}, 1, span, inputs));
+    CHECK_FALSE(detail::plan_inputs({0, 1, 0, 2}, 1, span, inputs));
     inputs = {};
-    CHECK(detail::plan_inputs({0.5, 1}, 1, span, inputs) == "--inputs: the run begins before the first row");
-    detail::DriveArguments given;
-    CHECK(detail::read_argument("--inputs", "/nowhere/table", given) ==
-          "--inputs: \"/nowhere/table\" could not be opened");
+    CHECK_FALSE(detail::plan_inputs({0.5, 1}, 1, span, inputs)); // it begins before the first row
 }
 
 namespace {

@@ -40,16 +40,16 @@ struct Greedy : Pendulum {
 
 /// Runs the program in this process with its streams in files.
 template <class Method, class M = Pendulum>
-Answer sweep_with(std::vector<std::string> arguments, const std::vector<double>& numbers, std::size_t cut = 0)
+Answer sweep_with(const detail::SweepJob& job, const std::vector<double>& numbers, std::size_t cut = 0)
 {
     const fs::path folder = fs::temp_directory_path() / ("lagen_sweep_test_" + std::to_string(getpid()));
     fs::create_directories(folder);
     std::ofstream(folder / "in", std::ios::binary)
         .write(reinterpret_cast<const char*>(numbers.data()),
                static_cast<std::streamsize>(numbers.size() * sizeof(double) - cut));
-    arguments.insert(arguments.begin(), "sweep");
-    std::vector<char*> pointers;
-    for (std::string& argument : arguments) pointers.push_back(argument.data());
+    std::string arguments[] = {"sweep", (folder / "job").string()};
+    char* pointers[] = {arguments[0].data(), arguments[1].data()};
+    REQUIRE(detail::write_bytes(pointers[1], detail::packed(job)));
     const auto redirect = [&](std::FILE* stream, const char* name, const char* mode) {
         std::fflush(stream);
         const int kept = dup(fileno(stream));
@@ -65,13 +65,21 @@ Answer sweep_with(std::vector<std::string> arguments, const std::vector<double>&
         std::clearerr(stream);
     };
     const int in = redirect(stdin, "in", "r"), out = redirect(stdout, "out", "w"), err = redirect(stderr, "err", "w");
-    const int code = sweep<M, Method>(static_cast<int>(pointers.size()), pointers.data());
+    const int code = sweep<M, Method>(2, pointers);
     restore(stdin, in);
     restore(stdout, out);
     restore(stderr, err);
     const Answer answer{code, content(folder / "out"), content(folder / "err")};
     fs::remove_all(folder);
     return answer;
+}
+
+detail::SweepJob job_of(std::size_t threads, std::vector<detail::DriveColumn> columns)
+{
+    detail::SweepJob job;
+    job.threads = threads;
+    job.run.columns = std::move(columns);
+    return job;
 }
 
 /// A trajectory from (th, w) to `end` with steps of 1/64.
@@ -92,8 +100,10 @@ std::vector<double> joined(const std::vector<std::vector<double>>& starts)
 TEST_CASE("The program of a sweep writes the end, events and extremes of each trajectory in order")
 {
     const auto numbers = joined({start(1, 0, 0), {3, 0, 0, 0, 0, 0, 0, 0, 0}, start(1, 0, 2), start(1, 0, 2, -1)});
-    for (const std::string threads : {"1", "3"}) {
-        const Answer answer = sweep_with<Rk4>({"--threads", threads, "--events", "bottom:any:0:1"}, numbers);
+    for (const std::size_t threads : {1U, 3U}) {
+        detail::SweepJob job = job_of(threads, {{false, 0}, {false, 1}});
+        job.run.events = {{"bottom", 0, false, 1}};
+        const Answer answer = sweep_with<Rk4>(job, numbers);
         CHECK(answer.code == 0);
         std::istringstream lines(answer.out);
         std::string first, failed, third, wrong;
@@ -125,8 +135,8 @@ TEST_CASE("The program of a sweep writes the end, events and extremes of each tr
 
 TEST_CASE("What a trajectory throws ends the program of a sweep with a sentence, whatever the number of threads")
 {
-    for (const std::string threads : {"1", "3"}) {
-        const Answer answer = sweep_with<Rk4, Greedy>({"--threads", threads, "--columns", "o0"},
+    for (const std::size_t threads : {1U, 3U}) {
+        const Answer answer = sweep_with<Rk4, Greedy>(job_of(threads, {{true, 0}}),
                                                       joined({start(1, 0, 1), start(1, 0, 2), start(1, 0, 3)}));
         CHECK(answer.code == 5);
         CHECK(answer.out.empty());
@@ -134,20 +144,13 @@ TEST_CASE("What a trajectory throws ends the program of a sweep with a sentence,
     }
 }
 
-TEST_CASE("A program of a sweep whose numbers end early, or with wrong arguments, says so")
+TEST_CASE("A program of a sweep whose numbers end early, or whose job is another model's, says so")
 {
-    const Answer cut = sweep_with<Rk4>({"--columns", "-"}, joined({start(1, 0, 1), start(1, 0, 2)}), 8);
+    const Answer cut = sweep_with<Rk4>(job_of(0, {}), joined({start(1, 0, 1), start(1, 0, 2)}), 8);
     CHECK(cut.code == 5);
     CHECK(cut.out == "1,ok\n");
     CHECK(cut.err == "error: the trajectories could not be read or written to their end\n");
-    const auto refusal = [](const std::vector<std::string>& arguments) {
-        const Answer answer = sweep_with<Rk4>(arguments, {0});
-        CHECK(answer.code == 4);
-        return answer.err;
-    };
-    CHECK(refusal({"--threads"}) == "error: --threads: a value is required\n");
-    CHECK(refusal({"--threads", "many"}) == "error: --threads: \"many\" is not a count\n");
-    CHECK(refusal({"--rows", "all"}) == "error: --rows: \"all\" is neither count, interval nor at\n");
-    CHECK(refusal({"--columns", "s7"}) ==
-          "error: --columns: \"s7\" is neither a state lane nor an observable of the model\n");
+    const Answer other = sweep_with<Rk4>(job_of(0, {{false, 7}}), {0});
+    CHECK(other.code == 4);
+    CHECK(other.err == "error: a job for this model is required\n");
 }

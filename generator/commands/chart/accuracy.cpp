@@ -55,9 +55,10 @@ Table states_with(double parameter, const MethodEntry& method, const RunRecord& 
     use_parameter(parameter, method, input);
     input.columns.clear();
     RunOutcome outcome;
+    outcome.table.columns = {"t"};
     for (std::size_t k = 0; k < record.names.lanes.size(); ++k) {
         input.columns.push_back({record.names.lanes[k], true, k});
-        outcome.state.emplace_back(record.names.lanes[k], "");
+        outcome.table.columns.push_back(record.names.lanes[k]);
     }
     integrate_scene(record.program, input, outcome);
     return succeeded(outcome.status) ? outcome.table : Table{};
@@ -124,7 +125,7 @@ bool confirm_accuracy(const AccurateMethod& accurate, const RunRecord& record, P
     const char* what = method.adaptive ? "tolerance" : "step";
     double parameter = accurate.parameter, distance = 0;
     Table rows = states_with(parameter, method, record, input);
-    if (rows.rows.empty()) { // the run itself will say why
+    if (rows.count() == 0) { // the run itself will say why
         use_parameter(parameter, method, input);
         write_standard_error(
             fmt::format("warning: accuracy {:g} is not confirmed: {} with {} {:.3g} does not come to the "
@@ -136,11 +137,11 @@ bool confirm_accuracy(const AccurateMethod& accurate, const RunRecord& record, P
         double finer = tightened(method, parameter);
         Table finer_rows = states_with(finer, method, record, input);
         // The same steps confirm nothing.
-        for (int same = 0; same < most_same && finer_rows.rows == rows.rows; ++same) {
+        for (int same = 0; same < most_same && finer_rows.numbers == rows.numbers; ++same) {
             finer = tightened(method, finer);
             finer_rows = states_with(finer, method, record, input);
         }
-        distance = row_distance(rows, finer_rows);
+        distance = table_distance(rows, finer_rows);
         use_parameter(parameter, method, input);
         // With the next one half as wrong, the error of this one is at most twice their distance.
         if (2 * distance <= accurate.accuracy) {
@@ -159,21 +160,14 @@ bool confirm_accuracy(const AccurateMethod& accurate, const RunRecord& record, P
     return false;
 }
 
-double row_distance(const Table& a, const Table& b)
+double table_distance(const Table& a, const Table& b)
 {
-    const std::vector<std::string_view> rows = a.lines(), others = b.lines();
-    if (rows.empty() || rows.size() != others.size()) return HUGE_VAL;
+    if (a.count() == 0 || a.count() != b.count()) return HUGE_VAL;
+    const std::vector<double> nothing(b.columns.size(), 0.0);
     double most = 0;
-    for (std::size_t row = 0; row < rows.size(); ++row) {
-        const std::vector<std::string_view> x = fields(rows[row]), y = fields(others[row]);
-        double distance = 0, size = 0;
-        for (std::size_t k = 1; k < std::min(x.size(), y.size()); ++k) {
-            const double s = std::strtod(std::string(x[k]).c_str(), nullptr);
-            const double r = std::strtod(std::string(y[k]).c_str(), nullptr);
-            distance += (s - r) * (s - r);
-            size += r * r;
-        }
-        most = std::max(most, std::sqrt(size > 0 ? distance / size : distance));
+    for (std::size_t k = 0; k < a.count(); ++k) {
+        const double distance = row_distance(a.row(k), b.row(k)), size = row_distance(b.row(k), nothing);
+        most = std::max(most, size > 0 ? distance / size : distance);
     }
     return most;
 }

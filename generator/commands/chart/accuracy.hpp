@@ -6,6 +6,7 @@
 #include "commands/chart/kept_chart.hpp"
 #include "commands/line/options.hpp"
 #include "commands/scene/run_record.hpp"
+#include "commands/scene/table.hpp"
 
 namespace lagen {
 
@@ -30,6 +31,6 @@ struct AccurateMethod {
 [[nodiscard]] bool confirm_accuracy(const AccurateMethod& accurate, const RunRecord& record, ProgramInput& input);
 
 /// The largest over the rows of |a - b|_2/|b|_2 (|a|_2 where b = 0), over those that both have; the first column is t.
-[[nodiscard]] double row_distance(const Table& a, const Table& b);
+[[nodiscard]] double table_distance(const Table& a, const Table& b);
 
 } // namespace lagen

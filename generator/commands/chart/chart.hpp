@@ -26,6 +26,12 @@ struct ChartPoint {
     double seconds = 0;                                 ///< the least of the repeats
     double spread = 1;                                  ///< the largest repeat over the least
     std::size_t steps = 0, rejected = 0, rhs_calls = 0;
+
+    static void each(auto& self, auto& archive) // lagen_run/archive.hpp
+    {
+        archive(self.method, self.parameter, self.status, self.error, self.seconds, self.steps, self.rejected,
+                self.rhs_calls);
+    }
 };
 
 struct LeftOutMethod {

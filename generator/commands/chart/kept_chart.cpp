@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/chart/kept_chart.hpp"
 
-#include "commands/chart/measure.hpp"
 #include "commands/machine/compile_cache.hpp"
 #include "commands/scene/run_record.hpp"
-
-#include <fmt/core.h>
+#include "lagen_run/archive.hpp"
 
 namespace lagen {
 
 namespace {
 
-constexpr const char* chart_heading = "what `lagen chart` measured\nobstacle=";
+constexpr std::string_view chart_heading = "what `lagen chart` measured, packed\n";
 
 } // namespace
 
@@ -40,24 +38,16 @@ KeptChart kept_chart(const Chart& chart)
 std::optional<KeptChart> find_chart(const std::string& file)
 {
     const std::optional<std::string> text = kept_text(file);
-    const std::string heading = chart_heading;
-    if (!text || !text->starts_with(heading)) return std::nullopt;
-    const std::size_t end = text->find('\n', heading.size());
-    if (end == std::string::npos) return std::nullopt;
-    return KeptChart{read_points(text->substr(end + 1)), text->substr(heading.size(), end - heading.size())};
+    if (!text || !text->starts_with(chart_heading)) return std::nullopt;
+    std::string_view bytes = *text;
+    bytes.remove_prefix(chart_heading.size());
+    KeptChart chart;
+    return detail::take_packed(bytes, chart) && bytes.empty() ? std::optional(std::move(chart)) : std::nullopt;
 }
 
 void keep_chart(const std::string& file, const KeptChart& chart)
 {
-    if (file.empty()) return;
-    std::string text = chart_heading + chart.obstacle + "\n";
-    for (const ChartPoint& point : chart.points) {
-        text += fmt::format("point={}\nparameter={}\nstatus={}\n", point.method, point.parameter, point.status);
-        if (point.error) text += fmt::format("error={}\n", *point.error);
-        text += fmt::format("steps={}\nrejected={}\nrhs_calls={}\nseconds={}\n", point.steps, point.rejected,
-                            point.rhs_calls, point.seconds);
-    }
-    keep_text(file, text);
+    if (!file.empty()) keep_text(file, std::string(chart_heading) + detail::packed(chart));
 }
 
 } // namespace lagen

@@ -10,6 +10,8 @@ namespace lagen {
 struct KeptChart {
     std::vector<ChartPoint> points;
     std::string obstacle; ///< why the reference ends before the scene does; empty where it does not
+
+    static void each(auto& self, auto& archive) { archive(self.points, self.obstacle); }
 };
 
 /// The file of the chart of a scene, named by what a chart rests on; empty where there is no place for a cache.

@@ -2,15 +2,14 @@
 #include "commands/chart/measure.hpp"
 
 #include "commands/machine/write_file.hpp"
-#include "commands/scene/run_report.hpp"
-#include "commands/scene/scene_program.hpp"
+#include "diagnostic.hpp"
+#include "lagen_run/archive.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 
 namespace lagen {
 
@@ -37,42 +36,42 @@ double first_step_of(const ChartProblem& problem, const ChartReference& referenc
     return step;
 }
 
-std::string ladder_line(const Contestant& method, double first_step, std::size_t calls)
+chart::Ladder ladder_of(const Contestant& method, double first_step, std::size_t calls)
 {
-    return method.adaptive ? fmt::format("ladder {} {:.17g} {:.17g} {:.17g} {}\n", method.name, largest_tolerance,
-                                         between_tolerances, least_tolerance, calls)
-                           : fmt::format("ladder {} {:.17g} 0.5 {:.17g} {}\n", method.name, first_step,
-                                         first_step * 0x1p-24, calls);
+    if (method.adaptive) return {method.name, largest_tolerance, between_tolerances, least_tolerance, calls};
+    return {method.name, first_step, 0.5, first_step * 0x1p-24, calls};
 }
 
-ChartPoint point_of(const std::string& block)
+ChartPoint point_of(const chart::PointReport& report)
 {
-    RunOutcome outcome;
     ChartPoint point;
-    for (std::size_t begin = 0; begin < block.size();) {
-        const std::size_t end = std::min(block.find('\n', begin), block.size());
-        const std::string line = block.substr(begin, end - begin);
-        if (line.starts_with("point=")) point.method = line.substr(6);
-        if (line.starts_with("parameter=")) point.parameter = std::strtod(line.c_str() + 10, nullptr);
-        if (line.starts_with("error=")) point.error = std::strtod(line.c_str() + 6, nullptr);
-        begin = end + 1;
-    }
-    read_report(block, outcome);
-    const auto count = [](const std::string& text) { return std::strtoul(text.c_str(), nullptr, 10); };
-    point.status = outcome.status;
-    point.steps = count(outcome.steps);
-    point.rejected = count(outcome.rejected);
-    point.rhs_calls = count(outcome.rhs_calls);
-    point.seconds = std::strtod(outcome.seconds.c_str(), nullptr);
-    for (const Drift& drift : outcome.invariants)
-        point.drifts.emplace_back(drift.name, std::strtod(drift.max_drift.c_str(), nullptr));
-    if (point.error && !std::isfinite(*point.error)) point.error.reset();
+    point.method = report.method;
+    point.parameter = report.parameter;
+    point.status = report.run.status;
+    if (std::isfinite(report.error)) point.error = report.error;
+    for (const detail::Drift& drift : report.run.invariants) point.drifts.emplace_back(drift.name, drift.most);
+    point.seconds = report.run.seconds;
+    point.steps = report.run.steps;
+    point.rejected = report.run.rejected;
+    point.rhs_calls = report.run.rhs_calls;
     return point;
+}
+
+/// The points that a program answered.
+std::vector<ChartPoint> read_points(std::string_view answer)
+{
+    std::vector<ChartPoint> points;
+    for (chart::PointReport report; !answer.empty(); report = {}) {
+        if (!detail::take_packed(answer, report)) throw InternalError("a chart's program gave another point");
+        points.push_back(point_of(report));
+    }
+    return points;
 }
 
 /// A program with its points so far.
 struct FamilyRuns {
-    std::string peer, program, request;
+    std::string peer, program;
+    chart::Request request;
     std::vector<ChartPoint> points; ///< with their least seconds
     std::vector<double> slowest;
 
@@ -89,49 +88,37 @@ struct FamilyRuns {
         }
     }
 
-    /// The request for these points alone.
-    [[nodiscard]] std::string same_again(std::size_t calls) const
+    /// From now on these points alone are asked for.
+    void ask_again(std::size_t calls)
     {
-        std::string lines;
+        request.ladders.clear();
         for (const ChartPoint& point : points)
-            lines += fmt::format("ladder {0} {1:.17g} 1 {1:.17g} {2}\n", point.method, point.parameter, calls);
-        return lines;
+            request.ladders.push_back({point.method, point.parameter, 1, point.parameter, calls});
     }
 };
 
 } // namespace
 
-std::vector<ChartPoint> read_points(const std::string& answer)
-{
-    std::vector<ChartPoint> points;
-    for (std::size_t begin = 0; begin < answer.size();) {
-        const std::size_t next = answer.find("\npoint=", begin);
-        const std::size_t end = next == std::string::npos ? answer.size() : next + 1;
-        points.push_back(point_of(answer.substr(begin, end - begin)));
-        begin = end;
-    }
-    return points;
-}
-
 std::vector<ChartPoint> measure_points(const ChartProblem& problem, const ChartReference& reference,
                                        const std::vector<MethodFamily>& families, std::size_t& repeats)
 {
     const std::size_t calls = std::max(calls_allowed * reference.calls, least_calls);
-    const std::string common =
-        request_of(problem) + fmt::format("most {}\nreference{}\n", calls, blank_list(reference.rows));
+    chart::Request common = request_of(problem);
+    common.most = calls;
+    common.reference = reference.rows;
     std::vector<FamilyRuns> runs;
     for (const MethodFamily& family : families) {
         runs.push_back({family.peer, family.program, common, {}, {}});
         for (const Contestant& method : family.methods)
-            runs.back().request += ladder_line(method, first_step_of(problem, reference), calls);
+            runs.back().request.ladders.push_back(ladder_of(method, first_step_of(problem, reference), calls));
     }
     const auto begin = std::chrono::steady_clock::now();
     repeats = quick_repeats;
     for (std::size_t round = 0; round < repeats; ++round) {
         write_standard_error(fmt::format("measuring, round {} of {}\n", round + 1, repeats));
         for (FamilyRuns& family : runs) {
-            family.see(read_points(answers_of({{family.program, family.request}}, 1)[0]));
-            if (round == 0) family.request = common + family.same_again(10 * calls);
+            family.see(read_points(answers_of({{family.program, detail::packed(family.request)}}, 1)[0]));
+            if (round == 0) family.ask_again(10 * calls);
         }
         const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
         if (round == 0 && taken.count() > slow_round) repeats = slow_repeats;

@@ -12,7 +12,4 @@ namespace lagen {
 [[nodiscard]] std::vector<ChartPoint> measure_points(const ChartProblem& problem, const ChartReference& reference,
                                                      const std::vector<MethodFamily>& families, std::size_t& repeats);
 
-/// The points that a program printed.
-[[nodiscard]] std::vector<ChartPoint> read_points(const std::string& answer);
-
 } // namespace lagen

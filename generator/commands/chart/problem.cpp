@@ -90,10 +90,15 @@ std::string blank_list(const std::vector<double>& numbers)
     return text;
 }
 
-std::string request_of(const ChartProblem& problem)
+chart::Request request_of(const ChartProblem& problem)
 {
-    return fmt::format("parameters{}\ninitial{}\nspan {:.17g} {:.17g}\nat{}\n", blank_list(problem.parameters),
-                       blank_list(problem.initial), problem.start, problem.end, blank_list(problem.times));
+    chart::Request request;
+    request.parameters = problem.parameters;
+    request.initial = problem.initial;
+    request.start = problem.start;
+    request.end = problem.end;
+    request.at = problem.times;
+    return request;
 }
 
 std::vector<std::string> answers_of(const std::vector<ChartCall>& calls, std::size_t at_once)

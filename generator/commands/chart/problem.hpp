@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// What all programs of a chart share: one model from one start, sampled at the same times. Their request is described
-/// in runtime/program/lagen_chart/request.hpp.
+/// What all programs of a chart share: one model from one start, sampled at the same times.
 #pragma once
 
+#include "lagen_chart/request.hpp"
 #include "pipeline.hpp"
 
 #include <string>
@@ -29,8 +29,8 @@ void sample_evenly(ChartProblem& problem, std::size_t count);
 /// Numbers with a blank before each, to be read back as they are.
 [[nodiscard]] std::string blank_list(const std::vector<double>& numbers);
 
-/// The lines that every program is given.
-[[nodiscard]] std::string request_of(const ChartProblem& problem);
+/// What every program is asked for.
+[[nodiscard]] chart::Request request_of(const ChartProblem& problem);
 
 /// A program of a chart, and what it is asked.
 struct ChartCall {

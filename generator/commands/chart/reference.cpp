@@ -2,14 +2,14 @@
 #include "commands/chart/reference.hpp"
 
 #include "commands/scene/methods.hpp"
+#include "commands/scene/scene_program.hpp"
 #include "diagnostic.hpp"
 #include "emit/print_header.hpp"
+#include "lagen_run/archive.hpp"
 
 #include <fmt/core.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <sstream>
 
 namespace lagen {
 
@@ -22,32 +22,22 @@ constexpr std::array reference_tolerances{1e-20, 1e-26};
 constexpr double series_share = 1e-6;
 constexpr std::size_t most_reference_steps = 400'000;
 
-struct ReferenceRun {
-    std::string status;
-    double t = 0;
-    std::size_t steps = 0, calls = 0;
-    std::vector<double> rows;
-};
+using ReferenceRun = chart::ReferenceReport;
 
-ReferenceRun read_reference(const std::string& answer)
+ReferenceRun read_reference(std::string_view answer)
 {
     ReferenceRun run;
-    std::istringstream lines(answer);
-    for (std::string line; std::getline(lines, line);) {
-        const std::size_t equals = line.find('=');
-        if (equals == std::string::npos) {
-            std::istringstream words(line);
-            for (std::string word; words >> word;) run.rows.push_back(std::strtod(word.c_str(), nullptr));
-            continue;
-        }
-        const std::string key = line.substr(0, equals), value = line.substr(equals + 1);
-        if (key == "status") run.status = value;
-        if (key == "t") run.t = std::strtod(value.c_str(), nullptr);
-        if (key == "steps") run.steps = std::strtoul(value.c_str(), nullptr, 10);
-        if (key == "rhs_calls") run.calls = std::strtoul(value.c_str(), nullptr, 10);
-    }
-    if (run.status.empty()) throw InternalError("a reference of a chart gave no status");
+    if (!detail::take_packed(answer, run)) throw InternalError("a reference of a chart gave another answer");
     return run;
+}
+
+/// The problem for a reference of this tolerance.
+chart::Request reference_request(const ChartProblem& problem, double tolerance)
+{
+    chart::Request request = request_of(problem);
+    request.tolerance = tolerance;
+    request.most = most_reference_steps;
+    return request;
 }
 
 /// |a - b|_2/|a|_2 of the samples number `sample`.
@@ -79,15 +69,9 @@ std::size_t agreeing(const std::array<ReferenceRun, 2>& runs, std::size_t lanes,
 bool end_at_event(ChartProblem& problem, const std::string& program)
 {
     if (problem.events.empty()) return false;
-    std::string request =
-        request_of(problem) + fmt::format("tolerance {:g}\nmost {}\n", reference_tolerances[0], most_reference_steps);
-    for (const Event& event : problem.events) {
-        const char* direction = event.direction == Direction::rising    ? "rising"
-                                : event.direction == Direction::falling ? "falling"
-                                                                        : "any";
-        request += fmt::format("event {} {} {}\n", event.name, direction, event.count);
-    }
-    const ReferenceRun run = read_reference(answers_of({{program, request}}, 1)[0]);
+    chart::Request request = reference_request(problem, reference_tolerances[0]);
+    request.events = events_asked(problem.events);
+    const ReferenceRun run = read_reference(answers_of({{program, detail::packed(request)}}, 1)[0]);
     if (run.status != "stopped_by_event") return false;
     problem.end = run.t;
     sample_evenly(problem, problem.times.size());
@@ -110,8 +94,7 @@ std::array<ReferenceRun, 2> run_references(const ChartProblem& problem, const st
     std::vector<ChartCall> calls;
     for (const std::size_t k : {0U, 1U}) {
         const double own = tolerance * (methods[k] == "taylor" ? series_share : 1);
-        calls.push_back(
-            {programs[k], request_of(problem) + fmt::format("tolerance {:g}\nmost {}\n", own, most_reference_steps)});
+        calls.push_back({programs[k], detail::packed(reference_request(problem, own))});
     }
     const std::vector<std::string> answers = answers_of(calls, 2);
     return {read_reference(answers[0]), read_reference(answers[1])};

@@ -5,7 +5,6 @@
 
 #include <fmt/core.h>
 
-#include <cstdlib>
 #include <unistd.h>
 
 namespace lagen {
@@ -22,14 +21,10 @@ Progress::Progress(double start, double end)
 {
 }
 
-void Progress::show(const std::string& rows)
+void Progress::show(double time)
 {
     if (!terminal_ || std::chrono::steady_clock::now() < next_) return;
     next_ = std::chrono::steady_clock::now() + interval;
-    const std::size_t end = rows.rfind('\n');
-    if (end == std::string::npos || end == 0) return;
-    const std::size_t before = rows.rfind('\n', end - 1);
-    const double time = std::strtod(rows.c_str() + (before == std::string::npos ? 0 : before + 1), nullptr);
     write_standard_error(fmt::format("\r{:3.0f} %  t = {:.6g}   ", 100 * (time - start_) / (end_ - start_), time));
     shown_ = true;
 }

@@ -3,15 +3,14 @@
 #pragma once
 
 #include <chrono>
-#include <string>
 
 namespace lagen {
 
 class Progress {
   public:
     Progress(double start, double end);
-    /// Shows how far the last complete row of `rows` has come.
-    void show(const std::string& rows);
+    /// The run has come to this time.
+    void show(double time);
     /// Wipes the line.
     void clear();
 

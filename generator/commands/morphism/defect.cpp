@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <utility>
 
@@ -19,14 +18,11 @@ namespace {
 constexpr double large = 1e-3;  ///< of the size of a column
 constexpr double least = 1e-12; ///< of the largest column: a column that is smaller is 0 but for rounding
 
-/// A row by the names of its columns; what is no number is nan.
-Values row_values(const Table& table, std::string_view line)
+/// A row by the names of its columns.
+Values row_values(const Table& table, std::size_t row)
 {
-    const std::vector<std::string_view> texts = fields(line);
     Values values;
-    for (std::size_t k = 0; k < texts.size(); ++k)
-        values[table.columns[k]] = texts[k].empty() ? std::numeric_limits<long double>::quiet_NaN()
-                                                    : std::strtold(std::string(texts[k]).c_str(), nullptr);
+    for (std::size_t k = 0; k < table.columns.size(); ++k) values[table.columns[k]] = table.row(row)[k];
     return values;
 }
 
@@ -45,18 +41,14 @@ void find_moved(RunComparison& comparison)
     const std::size_t count = comparison.defects.size();
     double most = 0;
     for (const ColumnDefect& defect : comparison.defects) most = std::fmax(most, defect.size);
-    for (const std::string_view line : comparison.table.lines()) {
-        const std::vector<std::string_view> texts = fields(line);
-        const auto value = [&](std::size_t k) {
-            return texts[k].empty() ? std::numeric_limits<double>::quiet_NaN()
-                                    : std::strtod(std::string(texts[k]).c_str(), nullptr);
-        };
+    for (std::size_t row = 0; row < comparison.table.count(); ++row) {
+        const std::span<const double> values = comparison.table.row(row);
         for (std::size_t k = 0; k < count; ++k) {
             ColumnDefect& defect = comparison.defects[k];
             const double allowed = std::fmax(large * defect.size, least * most);
-            if (defect.moved || std::fabs(value(k + 1) - value(count + k + 1)) <= allowed) continue;
+            if (defect.moved || std::fabs(values[k + 1] - values[count + k + 1]) <= allowed) continue;
             defect.moved = true;
-            defect.moved_at = value(0);
+            defect.moved_at = values[0];
         }
     }
 }
@@ -81,11 +73,6 @@ const ColumnDefect* largest_defect(const RunComparison& comparison, bool lifted)
     return largest;
 }
 
-std::string number_text(double value)
-{
-    return std::isfinite(value) ? fmt::format("{}", value) : "";
-}
-
 } // namespace
 
 RunComparison compare(const Projection& projection, const Table& source, const Table& target)
@@ -98,12 +85,12 @@ RunComparison compare(const Projection& projection, const Table& source, const T
         found.defects.push_back({column.name, column.kind == ComparedColumn::Kind::lifted});
     }
     for (const ComparedColumn& column : columns) found.table.columns.push_back(headings(column).second);
-    const std::vector<std::string_view> from = source.lines(), to = target.lines();
-    for (std::size_t row = 0; row < std::min(from.size(), to.size()); ++row) {
-        const Values here = row_values(source, from[row]), there = row_values(target, to[row]);
+    for (std::size_t row = 0; row < std::min(source.count(), target.count()); ++row) {
+        const Values here = row_values(source, row), there = row_values(target, row);
         if (here.at("t") != there.at("t")) throw InternalError("the rows of the two sides have different times");
         const std::vector<long double> images = projection(here, there);
-        std::string line = fmt::format("{}", static_cast<double>(here.at("t"))), behind;
+        std::vector<double> behind;
+        found.table.numbers.push_back(static_cast<double>(here.at("t")));
         for (std::size_t k = 0; k < columns.size(); ++k) {
             const bool of_target = columns[k].kind == ComparedColumn::Kind::projected;
             const long double given = (of_target ? there : here).at(columns[k].name);
@@ -111,11 +98,10 @@ RunComparison compare(const Projection& projection, const Table& source, const T
             join(defect, given, images[k], static_cast<double>(here.at("t")));
             for (const long double value : {given, images[k]})
                 if (std::isfinite(value)) defect.size = std::fmax(defect.size, std::fabs(static_cast<double>(value)));
-            line += "," + number_text(static_cast<double>(given));
-            behind += "," + number_text(static_cast<double>(images[k]));
+            found.table.numbers.push_back(static_cast<double>(given));
+            behind.push_back(static_cast<double>(images[k]));
         }
-        found.table.rows += line + behind + "\n";
-        ++found.table.count;
+        found.table.numbers.insert(found.table.numbers.end(), behind.begin(), behind.end());
     }
     find_moved(found);
     return found;
@@ -140,7 +126,7 @@ std::string defect_text(const RunComparison& comparison)
         if (const ColumnDefect* largest = largest_defect(comparison, lifted))
             text += fmt::format("defect of the {}: at most {:.3g}, of {} at t = {:.6g}, in {} rows\n",
                                 lifted ? "reconstruction" : "projection", largest->max, largest->name, largest->time,
-                                comparison.table.count);
+                                comparison.table.count());
     for (const ColumnDefect& defect : comparison.defects)
         if (defect.moved)
             text +=

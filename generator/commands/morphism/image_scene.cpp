@@ -6,7 +6,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace lagen {
 
@@ -69,16 +68,16 @@ void take_times(const SceneRun& source, const Table& rows, Scene& scene)
     scene.start = number_of(source.values().start);
     if (source.values().discrete) {
         const std::size_t every = source.input().times.every;
-        scene.steps = std::max<long>(1, static_cast<long>(every * (rows.count - 1)));
+        scene.steps = std::max<long>(1, static_cast<long>(every * (rows.count() - 1)));
         if (every == 1) return;
         scene.sampling.kind = Sampling::Kind::count;
-        scene.sampling.count = rows.count;
+        scene.sampling.count = rows.count();
         return;
     }
     scene.sampling.kind = Sampling::Kind::at;
     double last = static_cast<double>(source.values().start);
-    for (const std::string_view line : rows.lines()) {
-        last = std::strtod(std::string(fields(line)[0]).c_str(), nullptr);
+    for (std::size_t k = 0; k < rows.count(); ++k) {
+        last = rows.row(k)[0];
         scene.sampling.at.push_back(number_of(last));
     }
     scene.duration = number(Rational(last) - Rational(static_cast<double>(source.values().start)));

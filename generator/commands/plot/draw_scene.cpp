@@ -13,7 +13,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
 #include <map>
 
@@ -82,13 +81,6 @@ std::vector<PlannedPanel> panels_of(const PlottedRun& run)
 /// The values of every coordinate by its name, one a row.
 using Columns = std::map<std::string, std::vector<double>>;
 
-double number_of(std::string_view field)
-{
-    double value = std::numeric_limits<double>::quiet_NaN();
-    std::from_chars(field.data(), field.data() + field.size(), value);
-    return value;
-}
-
 /// Points at the rows of the scene, and nothing between them.
 bool draws_points(const PlottedRun& run)
 {
@@ -114,8 +106,8 @@ void use_times(const PlottedRun& run, ProgramInput& input)
 std::vector<double> jumps_of(const RunOutcome& outcome)
 {
     std::vector<double> times;
-    for (const EventReport& event : outcome.events)
-        if (!event.after.empty()) times.push_back(number_of(event.time));
+    for (const detail::FoundCrossing& event : outcome.events)
+        if (!event.after.empty()) times.push_back(event.t);
     std::ranges::reverse(times);
     return times;
 }
@@ -131,24 +123,24 @@ Columns columns_of_run(const PlottedRun& run, const std::vector<PlannedPanel>& p
     ProgramInput input = run.input;
     input.columns = columns_named(run.record.names, names);
     use_times(run, input);
+    names.insert(names.begin(), "t");
     RunOutcome outcome;
-    for (const std::string& lane : run.record.names.lanes) outcome.state.emplace_back(lane, "");
+    outcome.table.columns = names;
     integrate_scene(run.record.program, input, outcome);
-    if (outcome.table.count == 0 || panels.empty())
+    if (outcome.table.count() == 0 || panels.empty())
         throw MachineError("error: there is nothing to plot: the run gave no rows");
     Columns columns;
-    names.insert(names.begin(), "t");
     std::vector<double> jumps = jumps_of(outcome); // those that no row is behind yet, the next one last
-    for (const std::string_view line : outcome.table.lines()) {
-        const std::vector<std::string_view> row = fields(line);
-        const double time = number_of(row[0]);
+    for (std::size_t place = 0; place < outcome.table.count(); ++place) {
+        const std::span<const double> row = outcome.table.row(place);
+        const double time = row[0];
         const auto is_behind = [&](double jump) {
             return input.times.end < input.times.start ? time < jump : time > jump;
         };
         if (!jumps.empty() && is_behind(jumps.back()))
             for (const std::string& name : names) columns[name].push_back(std::numeric_limits<double>::quiet_NaN());
         while (!jumps.empty() && is_behind(jumps.back())) jumps.pop_back();
-        for (std::size_t k = 0; k < names.size(); ++k) columns[names[k]].push_back(number_of(row[k]));
+        for (std::size_t k = 0; k < names.size(); ++k) columns[names[k]].push_back(row[k]);
     }
     return columns;
 }

@@ -19,7 +19,7 @@ class OverlaidRun {
     [[nodiscard]] const RunOutcome& outcome() const { return outcome_; }
     [[nodiscard]] PlottedRun plotted() const
     {
-        return {checked_.model, run_.scene(), run_.record(), run_.input(), outcome_.table.count};
+        return {checked_.model, run_.scene(), run_.record(), run_.input(), outcome_.table.count()};
     }
 
   private:

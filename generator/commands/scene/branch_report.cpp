@@ -1,27 +1,23 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/scene/branch_report.hpp"
 
-#include <fmt/core.h>
+#include "lagen_run/text.hpp"
 
-#include <cstdlib>
+#include <fmt/core.h>
 
 namespace lagen {
 
 namespace {
 
 /// "2 arrows with these momenta are found, at distances 0.4 and 2.8"; `what` stands behind the arrows.
-std::string found_text(const std::vector<std::string>& distances, const char* what)
+std::string found_text(const std::vector<double>& distances, const char* what)
 {
     const std::size_t count = distances.size();
     if (count == 0) return fmt::format("no arrow {} is found", what);
     std::string text = count == 1 ? fmt::format("1 arrow {} is found, at the distance", what)
                                   : fmt::format("{} arrows {} are found, at the distances", count, what);
     for (std::size_t k = 0; k < count; ++k)
-        text += fmt::format("{}{:.6g}",
-                            k == 0           ? " "
-                            : k + 1 == count ? " and "
-                                             : ", ",
-                            std::strtod(distances[k].c_str(), nullptr));
+        text += fmt::format("{}{:.6g}", k == 0 ? " " : k + 1 == count ? " and " : ", ", distances[k]);
     return text;
 }
 
@@ -31,10 +27,10 @@ std::string options_text(std::size_t count)
     return count == 1 ? "`--branch 1`" : fmt::format("`--branch 1` to `--branch {}`", count);
 }
 
-std::string list_json(const std::vector<std::string>& numbers)
+std::string list_json(const std::vector<double>& numbers)
 {
     std::string text;
-    for (const std::string& number : numbers) text += (text.empty() ? "" : ", ") + number;
+    for (const double number : numbers) text += (text.empty() ? "" : ", ") + detail::number_text(number);
     return "[" + text + "]";
 }
 
@@ -59,7 +55,7 @@ std::string branches_text(const RunOutcome& outcome)
         text += fmt::format("  {} from the arrow before\n", found_text(outcome.others, "on other branches"));
     if (!outcome.branches || outcome.branches->empty()) return text;
     const std::size_t count = outcome.branches->size();
-    if (outcome.failed_at == outcome.time)
+    if (outcome.failed_at == outcome.t)
         text += fmt::format("  {}: {}\n", found_text(*outcome.branches, "on other branches"), options_text(count));
     else if (count > 1)
         text += fmt::format("  from the start {} branches are found: {}\n", count, options_text(count));

@@ -34,7 +34,7 @@ void call_walls(RunOutcome& outcome)
     const bool stopped =
         outcome.status == "stopped_by_event" && !outcome.events.empty() && outcome.events.back().name == wall_name;
     if (stopped) outcome.status = "left_domain";
-    std::erase_if(outcome.events, [](const EventReport& event) { return event.name == wall_name; });
+    std::erase_if(outcome.events, [](const detail::FoundCrossing& event) { return event.name == wall_name; });
 }
 
 } // namespace lagen

@@ -1,68 +1,75 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/scene/integrate_scene.hpp"
 
+#include "commands/machine/interrupt_flag.hpp"
 #include "commands/machine/process.hpp"
 #include "commands/machine/progress.hpp"
 #include "commands/machine/temporary_folder.hpp"
 #include "commands/machine/write_file.hpp"
-#include "commands/scene/scene_in_process.hpp"
 #include "diagnostic.hpp"
+#include "lagen_run/archive.hpp"
+#include "methods/integrate_compiled.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
-#include <filesystem>
+#include <cstring>
 
 namespace lagen {
 
 namespace {
 
-/// As driver.hpp reads them.
-std::string rows_text(const std::vector<std::vector<double>>& rows)
-{
-    std::string text;
-    for (const std::vector<double>& row : rows) text += fmt::format("{}\n", fmt::join(row, " "));
-    return text;
-}
+/// Native doubles that come in pieces of any length.
+class DoublesOf {
+  public:
+    explicit DoublesOf(std::vector<double>& numbers) : numbers_(numbers) {}
 
-/// Times, inputs and report go through files: an argument list has a limit.
-void use_folder(const TemporaryFolder& folder, ProgramInput& input)
-{
-    input.at_file = folder.file("times");
-    input.report_file = folder.file("report");
-    input.inputs_file = folder.file("inputs");
-    if (!input.held_inputs.empty()) write_file(input.inputs_file, rows_text(input.held_inputs));
-    if (input.times.kind != Sampling::Kind::at) return;
-    std::string times;
-    for (const long double time : input.times.at) times += fmt::format("{}\n", static_cast<double>(time));
-    write_file(input.at_file, times);
-}
+    void take(const char* bytes, std::size_t count)
+    {
+        rest_.append(bytes, count);
+        const std::size_t whole = rest_.size() / sizeof(double), before = numbers_.size();
+        numbers_.resize(before + whole);
+        std::memcpy(numbers_.data() + before, rest_.data(), whole * sizeof(double));
+        rest_.erase(0, whole * sizeof(double));
+    }
 
-/// Keeps the whole rows of an interrupted run.
-[[noreturn]] void end_interrupted(RunOutcome& outcome)
-{
-    std::string& rows = outcome.table.rows;
-    rows.erase(rows.rfind('\n') + 1); // npos + 1 is 0
-    outcome.table.count = outcome.table.lines().size();
-    outcome.status = "interrupted";
-    throw InterruptedError("lagen: interrupted, nothing was written");
-}
+  private:
+    std::vector<double>& numbers_;
+    std::string rest_;
+};
 
-/// Runs a program that was compiled around its model; its rows go to `take`. False where it was interrupted.
-bool run_program(const std::string& program, ProgramInput input, const std::function<void(std::string_view)>& take,
+/// Runs a program that was compiled around its model; `show` is called when there are rows. False where it was
+/// interrupted.
+bool run_program(const std::string& program, const ProgramInput& input, const std::function<void()>& show,
                  RunOutcome& outcome)
 {
-    const TemporaryFolder folder(shared_temporary_folder(), "lagen-run");
-    use_folder(folder, input);
-    const ProcessResult result =
-        run_process(program_arguments(program, input),
-                    [&](const char* bytes, std::size_t count) { take(std::string_view(bytes, count)); });
+    const TemporaryFolder folder(shared_temporary_folder(), "lagen-run"); // an argument list has a limit
+    const std::string job = folder.file("job"), report = folder.file("report");
+    write_file(job, detail::packed(job_of(input)));
+    DoublesOf rows(outcome.table.numbers);
+    const ProcessResult result = run_process({program, job, report}, [&](const char* bytes, std::size_t count) {
+        rows.take(bytes, count);
+        show();
+    });
     require_started(result, program);
     const bool interrupted = result.interrupted || result.exit_code == static_cast<int>(ExitCode::interrupted);
-    if (!interrupted && result.exit_code != 0 && result.exit_code != 1) refuse_end(result);
-    std::error_code ignored; // one that was killed wrote no report
-    if (!interrupted || std::filesystem::exists(input.report_file, ignored))
-        read_report(content_of_file(input.report_file), outcome);
+    if (!interrupted && result.exit_code != 0) refuse_end(result);
+    if (!detail::read_packed(report.c_str(), static_cast<detail::RunReport&>(outcome)) && !interrupted)
+        throw InternalError("the program of a scene gave no report"); // one that was killed wrote none
     return !interrupted;
+}
+
+/// Integrates over the compiled model of this path; its rows go to `rows` one after another.
+bool run_in_process(const std::string& path, const ProgramInput& input, const detail::RowTaker& rows,
+                    RunOutcome& outcome)
+{
+    const InterruptFlag interrupt;
+    const std::string not_loaded =
+        integrate_compiled(path, input.method_type, job_of(input), rows, interrupt.flag(), outcome);
+    if (!not_loaded.empty())
+        throw MachineError(fmt::format("error: the compiled model could not be loaded: {}\nhint: remove '{}' to have "
+                                       "it compiled again",
+                                       not_loaded, path));
+    return !is_interrupted(outcome);
 }
 
 } // namespace
@@ -78,15 +85,27 @@ try {
 void integrate_scene(const std::string& program, const ProgramInput& input, RunOutcome& outcome)
 {
     Progress progress(static_cast<double>(input.times.start), static_cast<double>(input.times.end));
-    const auto take = [&](std::string_view rows) {
-        outcome.table.rows.append(rows);
-        progress.show(outcome.table.rows);
+    Table& table = outcome.table;
+    const auto show = [&] { progress.show(table.last_time()); };
+    const auto take = [&](std::span<const double> row) {
+        table.numbers.insert(table.numbers.end(), row.begin(), row.end());
+        show();
     };
-    const bool whole = is_compiled_model(program) ? integrate_in_process(program, input, take, outcome)
-                                                  : run_program(program, input, take, outcome);
+    const bool whole = program.ends_with(".so") ? run_in_process(program, input, take, outcome)
+                                                : run_program(program, input, show, outcome);
     progress.clear();
-    if (!whole) end_interrupted(outcome);
-    outcome.table.count = outcome.table.lines().size();
+    table.numbers.resize(table.count() * table.columns.size()); // whole rows of one that was killed
+    if (!whole) {
+        outcome.status = "interrupted";
+        throw InterruptedError("lagen: interrupted, nothing was written");
+    }
+    // A run that was refused at its start has measured nothing.
+    const bool refused = outcome.status == "not_separable" || outcome.status == "invalid_input" ||
+                         outcome.status == "singular_mass_matrix";
+    if (!refused || outcome.steps > 0) return;
+    for (auto* drifts : {&outcome.invariants, &outcome.balance, &outcome.casimirs, &outcome.constraints})
+        drifts->clear();
+    outcome.manifold.reset();
 }
 
 } // namespace lagen

@@ -26,9 +26,9 @@ std::string rounded(long double step)
 class StepSearch {
   public:
     StepSearch(const Model& model, Scene scene, const std::string& program, ProgramInput input, StartState& start,
-               const RunOutcome& outcome)
+               long double failed_at)
         : model_(model), scene_(std::move(scene)), program_(program), input_(std::move(input)), start_(start),
-          outcome_(outcome), failed_at_(std::strtold(outcome.failed_at.c_str(), nullptr))
+          failed_at_(failed_at)
     {
         scene_.duration = nullptr;
         scene_.sampling = {};
@@ -72,7 +72,7 @@ class StepSearch {
         scene_.steps = static_cast<long>(count);
         use_values(input_, scene_, evaluate_scene(model_, scene_), start_, false);
         RunOutcome trial;
-        trial.state = outcome_.state;
+        trial.table.columns = {"t"};
         integrate_scene(program_, input_, trial);
         return succeeded(trial.status);
     }
@@ -82,7 +82,6 @@ class StepSearch {
     const std::string& program_;
     ProgramInput input_;
     StartState& start_;
-    const RunOutcome& outcome_;
     long double failed_at_, spent_ = 0;
 };
 
@@ -95,7 +94,7 @@ std::string largest_step(const Model& model, Scene scene, const std::string& pro
     const SceneValues values = evaluate_scene(model, scene);
     if (!values.discrete || starts_from_arrow(values) || std::ranges::count(of_an_arrow, outcome.status) == 0)
         return {};
-    return StepSearch(model, std::move(scene), program, std::move(input), start, outcome).find(*values.step);
+    return StepSearch(model, std::move(scene), program, std::move(input), start, outcome.failed_at).find(*values.step);
 }
 
 } // namespace lagen

@@ -2,6 +2,7 @@
 /// The step of a discrete motion that would have gone on where the one of its scene failed.
 #pragma once
 
+#include "commands/scene/run_report.hpp"
 #include "commands/scene/scene_program.hpp"
 
 namespace lagen {

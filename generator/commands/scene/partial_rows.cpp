@@ -5,7 +5,7 @@
 
 #include <fmt/core.h>
 
-#include <cstdlib>
+#include <cmath>
 #include <filesystem>
 
 namespace lagen {
@@ -24,7 +24,7 @@ std::string partial_place(const std::string& output)
 } // namespace
 
 ExitCode leave_rows(const Options& options, const Table& rows, const std::vector<std::string>& known,
-                    const std::string& report, const std::string& time)
+                    const std::string& report, double t)
 {
     const std::string output = options.get("output");
     const bool as_json = options.get("format") == "json";
@@ -35,10 +35,11 @@ ExitCode leave_rows(const Options& options, const Table& rows, const std::vector
         place = fmt::format("in '{}'", file);
     }
     if (as_json || output.empty()) write_standard_output(as_json ? report : to_csv(rows, known));
-    const std::string when = time.empty() ? "" : fmt::format(" at t = {:.9g}", std::strtod(time.c_str(), nullptr));
+    const std::size_t count = rows.count();
+    const std::string when = std::isfinite(t) ? fmt::format(" at t = {:.9g}", t) : "";
     write_standard_error(fmt::format("lagen: interrupted{}; {} so far {} {}\n", when,
-                                     rows.count == 1 ? "the row" : fmt::format("the {} rows", rows.count),
-                                     rows.count == 1 ? "is" : "are", place));
+                                     count == 1 ? "the row" : fmt::format("the {} rows", count),
+                                     count == 1 ? "is" : "are", place));
     return ExitCode::interrupted;
 }
 

@@ -4,23 +4,25 @@
 #include "commands/scene/branch_report.hpp"
 #include "commands/scene/methods.hpp"
 #include "emit/json.hpp"
+#include "lagen_run/text.hpp"
 #include "model/form.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <span>
 
 namespace lagen {
 
 namespace {
 
-/// A JSON number with the digits as they are; JSON has neither nan nor inf.
-std::string number_text(std::string_view text)
+using detail::Drift;
+
+/// A JSON number; JSON has neither nan nor inf.
+std::string number_text(double number)
 {
-    const bool finite = !text.empty() && text.find_first_of("nN") == std::string_view::npos;
-    return finite ? std::string(text) : "null";
+    return std::isfinite(number) ? detail::number_text(number) : "null";
 }
 
 std::string string_text(std::string_view text)
@@ -36,6 +38,11 @@ std::string list_text(const Items& items, Print print)
     return text + "]";
 }
 
+std::string numbers_json(std::span<const double> numbers)
+{
+    return list_text(numbers, number_text);
+}
+
 /// What ended a run whose controls could not be followed, a discrete one, one on a group, or one of jumps.
 std::string reason_text(const RunOutcome& outcome)
 {
@@ -46,7 +53,7 @@ std::string reason_text(const RunOutcome& outcome)
         return "no arrow on this branch has these momenta: they lie behind a fold of F^-L; shorter steps reach further";
     if (status == "branch_lost" && outcome.form != "discrete")
         return "the step turns farther than the chart of the group reaches: take a shorter one";
-    if (status == "branch_lost" && outcome.table.count == 0)
+    if (status == "branch_lost" && outcome.table.count() == 0)
         return "the momenta of the first arrow are not found: its inner unknowns, of `exp` its logarithm, have no "
                "value that Newton's method reaches from 0, as a half turn has none";
     if (status == "branch_lost")
@@ -68,14 +75,9 @@ std::string reason_text(const RunOutcome& outcome)
     return {};
 }
 
-bool is_number(const std::string& text)
+std::string brief(double number, int digits)
 {
-    return !text.empty() && std::isfinite(std::strtod(text.c_str(), nullptr));
-}
-
-std::string brief(const std::string& number, int digits)
-{
-    return number.empty() ? number : fmt::format("{:.{}g}", std::strtod(number.c_str(), nullptr), digits);
+    return fmt::format("{:.{}g}", number, digits);
 }
 
 bool changes_by_itself(const RunOutcome& outcome, const Drift& drift)
@@ -91,20 +93,20 @@ bool is_exact(const RunOutcome& outcome, const Drift& drift)
 
 std::string slope_json(const Drift& drift)
 {
-    if (!is_number(drift.slope)) return "";
-    return fmt::format(", \"slope\": {}, \"slope_error\": {}", drift.slope, number_text(drift.error));
+    if (!std::isfinite(drift.slope)) return "";
+    return fmt::format(", \"slope\": {}, \"slope_error\": {}", number_text(drift.slope), number_text(drift.error));
 }
 
 std::string moved_json(const RunOutcome& outcome, const Drift& drift)
 {
-    if (!is_number(drift.moved_at) || !is_exact(outcome, drift)) return "";
-    return fmt::format(", \"size\": {}, \"moved_at\": {}", number_text(drift.size), drift.moved_at);
+    if (!std::isfinite(drift.moved_at) || !is_exact(outcome, drift)) return "";
+    return fmt::format(", \"size\": {}, \"moved_at\": {}", number_text(drift.size), number_text(drift.moved_at));
 }
 
 /// The members behind the first ones.
 std::string rest_json(const RunOutcome& outcome, const Drift& drift)
 {
-    return fmt::format(", \"t\": {}{}{}", number_text(drift.time), slope_json(drift), moved_json(outcome, drift));
+    return fmt::format(", \"t\": {}{}{}", number_text(drift.t), slope_json(drift), moved_json(outcome, drift));
 }
 
 /// An object with a member a function; `first` prints its first members.
@@ -122,10 +124,9 @@ std::string drifts_json(const RunOutcome& outcome, const std::vector<Drift>& dri
 std::string figures_json(const RunOutcome& outcome)
 {
     const auto from_start = [](const Drift& drift) {
-        return fmt::format("\"initial\": {}, \"max_drift\": {}", number_text(drift.initial),
-                           number_text(drift.max_drift));
+        return fmt::format("\"initial\": {}, \"max_drift\": {}", number_text(drift.initial), number_text(drift.most));
     };
-    const auto from_zero = [](const Drift& drift) { return fmt::format("\"max\": {}", number_text(drift.max_drift)); };
+    const auto from_zero = [](const Drift& drift) { return fmt::format("\"max\": {}", number_text(drift.most)); };
     std::string text = fmt::format(" \"invariants\": {},\n \"casimirs\": {},\n \"constraints\": {}",
                                    drifts_json(outcome, outcome.invariants, from_start),
                                    drifts_json(outcome, outcome.casimirs, from_start),
@@ -133,15 +134,15 @@ std::string figures_json(const RunOutcome& outcome)
     for (const Drift& drift : outcome.balance)
         text += fmt::format(",\n \"energy_balance\": {{{}, \"work\": {}{}}}", from_start(drift),
                             number_text(outcome.work), rest_json(outcome, drift));
-    if (!outcome.manifold.empty())
-        text += fmt::format(",\n \"manifold_distance\": {{\"max\": {}, \"t\": {}}}", number_text(outcome.manifold),
-                            number_text(outcome.manifold_time));
+    if (outcome.manifold)
+        text += fmt::format(",\n \"manifold_distance\": {{\"max\": {}, \"t\": {}}}", number_text(*outcome.manifold),
+                            number_text(outcome.manifold_t));
     return text;
 }
 
 std::string slope_text(const Drift& drift)
 {
-    if (!is_number(drift.slope)) return "";
+    if (!std::isfinite(drift.slope)) return "";
     return fmt::format(", slope {} +- {}", brief(drift.slope, 3), brief(drift.error, 2));
 }
 
@@ -151,31 +152,26 @@ std::string figures_text(const RunOutcome& outcome)
     std::string text;
     for (const auto* drifts : {&outcome.invariants, &outcome.balance, &outcome.casimirs})
         for (const Drift& drift : *drifts) {
-            if (is_energy(drift) && drift.initial == "0" && drift.max_drift == "0") continue; // costates that are 0
-            if (!is_number(drift.initial))
+            if (is_energy(drift) && drift.initial == 0 && drift.most == 0) continue; // costates that are 0
+            if (!std::isfinite(drift.initial))
                 text += fmt::format("  {}: no finite number at the start\n", drift.name);
             else
                 text += fmt::format(
                     "  {}: {} at the start, largest drift {} at t = {}{}{}\n", drift.name, brief(drift.initial, 9),
-                    brief(drift.max_drift, 3), brief(drift.time, 6), slope_text(drift),
+                    brief(drift.most, 3), brief(drift.t, 6), slope_text(drift),
                     changes_by_itself(outcome, drift) ? " (not conserved: forces, time, a drift or jumps)" : "");
         }
     for (const Drift& drift : outcome.constraints)
-        text += fmt::format("  {} = 0: at most {} off at t = {}{}\n", drift.name, brief(drift.max_drift, 3),
-                            brief(drift.time, 6), slope_text(drift));
-    if (!outcome.manifold.empty())
-        text += fmt::format("  distance from the manifold: at most {} at t = {}\n", brief(outcome.manifold, 3),
-                            brief(outcome.manifold_time, 6));
+        text += fmt::format("  {} = 0: at most {} off at t = {}{}\n", drift.name, brief(drift.most, 3),
+                            brief(drift.t, 6), slope_text(drift));
+    if (outcome.manifold)
+        text += fmt::format("  distance from the manifold: at most {} at t = {}\n", brief(*outcome.manifold, 3),
+                            brief(outcome.manifold_t, 6));
     if (!outcome.left_out.empty())
         text += fmt::format("  {}: left out, as the form '{}' does not have what {} of\n",
                             fmt::join(outcome.left_out, ", "), outcome.form,
                             outcome.left_out.size() == 1 ? "it is made" : "they are made");
     return text;
-}
-
-double number_of(const std::string& text)
-{
-    return text.empty() ? std::nan("") : std::strtod(text.c_str(), nullptr);
 }
 
 /// The largest first variation, what its separate terms come to before they cancel, and the least and largest second
@@ -187,11 +183,10 @@ ActionSizes sizes_of(const ActionReport& action)
 {
     ActionSizes sizes;
     for (std::size_t k = 0; k < action.base.size(); ++k) {
-        const double base = number_of(action.base[k]), fibre = number_of(action.fibre[k]);
-        sizes.first = std::max(sizes.first, std::fabs(base + fibre));
-        sizes.part = std::max(sizes.part, std::sqrt(number_of(action.squares[k])));
-        sizes.least = std::min(sizes.least, number_of(action.second[k]));
-        sizes.largest = std::max(sizes.largest, number_of(action.second[k]));
+        sizes.first = std::max(sizes.first, std::fabs(action.base[k] + action.fibre[k]));
+        sizes.part = std::max(sizes.part, std::sqrt(action.squares[k]));
+        sizes.least = std::min(sizes.least, action.second[k]);
+        sizes.largest = std::max(sizes.largest, action.second[k]);
     }
     return sizes;
 }
@@ -213,39 +208,29 @@ std::string action_json(const RunOutcome& outcome)
     if (!outcome.action) return "";
     const ActionReport& action = *outcome.action;
     const ActionSizes sizes = sizes_of(action);
-    const auto numbers = [](const std::vector<std::string>& list) {
-        return list_text(list, [](const std::string& number) { return number_text(number); });
-    };
     return fmt::format(",\n \"action\": {{\"value\": {}, \"first\": {:.17g}, \"parts\": {:.17g}, \"base\": {}, "
                        "\"fibre\": {}, \"second\": {}}}",
-                       number_text(action.action), sizes.first, sizes.part, numbers(action.base), numbers(action.fibre),
-                       numbers(action.second));
-}
-
-std::string row_text(std::string_view line)
-{
-    return list_text(fields(line), [](std::string_view field) { return number_text(field); });
+                       number_text(action.action), sizes.first, sizes.part, numbers_json(action.base),
+                       numbers_json(action.fibre), numbers_json(action.second));
 }
 
 constexpr std::size_t most_lanes = 12; ///< of a state in a line
 
-std::string lanes_json(const RunOutcome& outcome, const std::vector<std::string>& values)
+std::string lanes_json(const RunOutcome& outcome, const std::vector<double>& values)
 {
     std::string text;
     for (std::size_t k = 0; k < values.size(); ++k)
-        text +=
-            fmt::format("{}{}: {}", k == 0 ? "" : ", ", string_text(outcome.state.at(k).first), number_text(values[k]));
+        text += fmt::format("{}{}: {}", k == 0 ? "" : ", ", string_text(outcome.lanes.at(k)), number_text(values[k]));
     return "{" + text + "}";
 }
 
 /// "x = 0, v = -1", but for lanes that are as `before`.
-std::string lanes_text(const RunOutcome& outcome, const std::vector<std::string>& values,
-                       const std::vector<std::string>& before)
+std::string lanes_text(const RunOutcome& outcome, const std::vector<double>& values, const std::vector<double>& before)
 {
     std::string text;
     for (std::size_t k = 0; k < values.size(); ++k)
         if (before.empty() || before[k] != values[k])
-            text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", outcome.state.at(k).first, brief(values[k], 9));
+            text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", outcome.lanes.at(k), brief(values[k], 9));
     return text;
 }
 
@@ -253,15 +238,15 @@ std::string lanes_text(const RunOutcome& outcome, const std::vector<std::string>
 std::string events_text(const RunOutcome& outcome)
 {
     constexpr std::size_t most = 20, shown = 10;
-    const std::vector<EventReport>& events = outcome.events;
+    const std::vector<detail::FoundCrossing>& events = outcome.events;
     std::string text;
     for (std::size_t k = 0; k < events.size(); ++k) {
         if (events.size() > most && k == shown) {
             text += fmt::format("  and {} events more, all of them in `--format json`\n", events.size() - 2 * shown);
             k = events.size() - shown;
         }
-        const EventReport& event = events[k];
-        text += fmt::format("  event {} at t = {}", event.name, brief(event.time, 15));
+        const detail::FoundCrossing& event = events[k];
+        text += fmt::format("  event {} at t = {}", event.name, brief(event.t, 15));
         if (!event.state.empty() && event.state.size() <= most_lanes) {
             const std::string after = lanes_text(outcome, event.after, event.state);
             text += ": " + lanes_text(outcome, event.state, {}) + (after.empty() ? "" : ", then " + after);
@@ -274,18 +259,31 @@ std::string events_text(const RunOutcome& outcome)
 /// The last good state of a run that failed, where it has few lanes.
 std::string last_state(const RunOutcome& outcome)
 {
-    std::string lanes;
-    for (const auto& [name, value] : outcome.state)
-        lanes += fmt::format("{}{} = {:.9g}", lanes.empty() ? ": " : ", ", name, std::strtod(value.c_str(), nullptr));
-    return fmt::format("  the last good state is at t = {:.15g}{}\n", std::strtod(outcome.time.c_str(), nullptr),
-                       outcome.state.size() <= most_lanes ? lanes : "");
+    const bool few = !outcome.state.empty() && outcome.state.size() <= most_lanes;
+    return fmt::format("  the last good state is at t = {}{}\n", brief(outcome.t, 15),
+                       few ? ": " + lanes_text(outcome, outcome.state, {}) : "");
+}
+
+/// Lanes that moved and never exceeded the absolute tolerance.
+std::string small_lanes_warning(const RunOutcome& outcome)
+{
+    constexpr std::size_t most = 6; // in a line
+    const std::vector<detail::SmallLane>& lanes = outcome.below;
+    std::string names;
+    for (std::size_t k = 0; k < std::min(lanes.size(), most); ++k)
+        names += fmt::format("{}{} (at most {})", k == 0 ? "" : ", ", outcome.lanes.at(lanes[k].lane),
+                             brief(lanes[k].most, 2));
+    if (lanes.size() > most) names += fmt::format(" and {} more", lanes.size() - most);
+    return lanes.empty() ? "" : below_absolute_warning(names, outcome.absolute);
 }
 
 std::string accuracy_members(const RunOutcome& outcome)
 {
     return fmt::format(" \"accuracy\": {}, \"below_absolute\": {},",
                        outcome.accuracy ? json_of(*outcome.accuracy) : "null",
-                       list_text(outcome.below_absolute, [](const SmallLane& lane) { return string_text(lane.name); }));
+                       list_text(outcome.below, [&](const detail::SmallLane& each) {
+                           return string_text(outcome.lanes.at(each.lane));
+                       }));
 }
 
 /// Of a run that did not leave its start.
@@ -328,51 +326,52 @@ bool is_interrupted(const RunOutcome& outcome)
 
 std::string report_json(const RunOutcome& outcome)
 {
-    const std::string events = list_text(outcome.events, [&](const EventReport& event) {
+    const std::string events = list_text(outcome.events, [&](const detail::FoundCrossing& event) {
         return fmt::format("{{\"name\": {}, \"t\": {}, \"state\": {}{}}}", string_text(event.name),
-                           number_text(event.time), lanes_json(outcome, event.state),
+                           number_text(event.t), lanes_json(outcome, event.state),
                            event.after.empty() ? "" : ", \"after\": " + lanes_json(outcome, event.after));
     });
-    const std::string implicit = outcome.newton.empty()
+    const std::string implicit = outcome.newton == 0
                                      ? ""
                                      : fmt::format(" \"newton_iterations\": {}, \"decompositions\": {},",
-                                                   number_text(outcome.newton), number_text(outcome.decompositions));
-    std::vector<std::string> state;
-    for (const auto& lane : outcome.state) state.push_back(lane.second);
+                                                   outcome.newton, outcome.decompositions);
+    std::vector<std::string> rows;
+    for (std::size_t k = 0; k < outcome.table.count(); ++k) rows.push_back(numbers_json(outcome.table.row(k)));
     return fmt::format(
         "{{\"model\": {}, \"scene\": {}, \"form\": {}, \"method\": {}, \"status\": {}, \"t\": {}, "
         "\"state\": {},{}{}\n \"steps\": {}, "
         "\"rejected\": {}, \"rhs_calls\": {},{} \"seconds\": {},\n{}\n \"columns\": {},\n \"rows\": {},\n \"events\": "
         "{},\n{}}}\n",
         string_text(outcome.model), string_text(outcome.scene), string_text(outcome.form), string_text(outcome.method),
-        string_text(outcome.status), number_text(outcome.time), lanes_json(outcome, state),
+        string_text(outcome.status), number_text(outcome.t), lanes_json(outcome, outcome.state),
         succeeded(outcome.status)
             ? ""
             : fmt::format(" \"failed_at\": {},", number_text(outcome.failed_at)) +
                   (outcome.largest_step.empty() ? "" : fmt::format(" \"largest_step\": {},", outcome.largest_step)),
-        branches_json(outcome), number_text(outcome.steps), number_text(outcome.rejected),
-        number_text(outcome.rhs_calls), implicit, number_text(outcome.seconds), accuracy_members(outcome),
+        branches_json(outcome), outcome.steps, outcome.rejected, outcome.rhs_calls, implicit,
+        number_text(outcome.seconds), accuracy_members(outcome),
         list_text(outcome.table.columns, [](const std::string& column) { return string_text(column); }),
-        list_text(outcome.table.lines(), row_text), events, figures_json(outcome) + action_json(outcome));
+        list_text(rows, [](const std::string& row) { return row; }), events,
+        figures_json(outcome) + action_json(outcome));
 }
 
 std::string report_text(const RunOutcome& outcome)
 {
-    const auto counted = [](const std::string& number, const char* noun) {
-        return fmt::format("{} {}{}", number, noun, number == "1" ? "" : "s");
+    const auto counted = [](std::size_t number, const char* noun) {
+        return fmt::format("{} {}{}", number, noun, number == 1 ? "" : "s");
     };
     std::string text = fmt::format(
         "{}, scene {}: {} at t = {}; {}, {} ({} rejected), {}, {}\n", outcome.model, outcome.scene, outcome.status,
         brief(outcome.failed_at, 9), outcome.method, counted(outcome.steps, "step"), outcome.rejected,
-        counted(outcome.rhs_calls, "right-hand side"), counted(std::to_string(outcome.table.count), "row"));
-    if (!outcome.newton.empty())
+        counted(outcome.rhs_calls, "right-hand side"), counted(outcome.table.count(), "row"));
+    if (outcome.newton > 0)
         text += fmt::format("  {}, {}\n", counted(outcome.newton, "Newton iteration"),
                             counted(outcome.decompositions, "factorisation"));
     text += events_text(outcome);
     const bool failed = !succeeded(outcome.status);
     if (const std::string reason = reason_text(outcome); !reason.empty())
         text += fmt::format("  {}\n{}", reason, last_state(outcome));
-    else if (failed && outcome.steps != "0")
+    else if (failed && outcome.steps > 0)
         text += last_state(outcome);
     text += branches_text(outcome);
     if (!outcome.not_finite.empty())
@@ -381,8 +380,15 @@ std::string report_text(const RunOutcome& outcome)
                             outcome.not_finite, outcome.method);
     if (!outcome.largest_step.empty())
         text += fmt::format("  the largest step near it that goes on there: {}\n", outcome.largest_step);
-    if (failed && outcome.steps == "0") return text + start_hint(outcome);
+    if (failed && outcome.steps == 0) return text + start_hint(outcome);
     return text + accuracy_line(outcome.accuracy, outcome.second_run) + action_text(outcome) + figures_text(outcome);
+}
+
+std::string below_absolute_warning(const std::string& lanes, const std::string& tolerance)
+{
+    return fmt::format("warning: {} moved and never exceeded the absolute tolerance{}{}: the digits may be noise\n"
+                       "hint: `absolute` in the scene far below them, or other units\n",
+                       lanes, tolerance.empty() ? "" : " ", tolerance);
 }
 
 std::string start_note(const RunOutcome& outcome)
@@ -400,14 +406,13 @@ std::string run_warnings(const RunOutcome& outcome)
     std::string text;
     for (const auto* drifts : {&outcome.invariants, &outcome.balance, &outcome.casimirs, &outcome.constraints})
         for (const Drift& drift : *drifts)
-            if (is_number(drift.moved_at) && is_exact(outcome, drift))
-                text +=
-                    fmt::format("warning: {} should be constant and moved by {}: by more than 1e-3 of its size {} "
-                                "from t = {} on{}\n",
-                                drift.name, brief(drift.max_drift, 3), brief(drift.size, 3), brief(drift.moved_at, 9),
-                                outcome.status == "left_domain" ? ", where the run left the domain"
-                                                                : "; a smaller step or tolerance keeps it better");
-    return text + small_lanes_warning(outcome.below_absolute, outcome.absolute);
+            if (std::isfinite(drift.moved_at) && is_exact(outcome, drift))
+                text += fmt::format("warning: {} should be constant and moved by {}: by more than 1e-3 of its size {} "
+                                    "from t = {} on{}\n",
+                                    drift.name, brief(drift.most, 3), brief(drift.size, 3), brief(drift.moved_at, 9),
+                                    outcome.status == "left_domain" ? ", where the run left the domain"
+                                                                    : "; a smaller step or tolerance keeps it better");
+    return text + small_lanes_warning(outcome);
 }
 
 } // namespace lagen

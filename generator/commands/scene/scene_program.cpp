@@ -9,120 +9,36 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
-#include <functional>
 
 namespace lagen {
 
 namespace {
 
-/// What the program reads as the double nearest to the number.
-std::string text_of(long double value)
+std::vector<double> doubles_of(const std::vector<long double>& values)
 {
-    return fmt::format("{}", static_cast<double>(value));
+    std::vector<double> rounded;
+    for (const long double value : values) rounded.push_back(static_cast<double>(value));
+    return rounded;
 }
 
-std::string list_of(const std::vector<long double>& values)
+detail::RowsAsked rows_asked(const ProgramInput& input)
 {
-    std::string text;
-    for (const long double value : values) text += (text.empty() ? "" : ",") + text_of(value);
-    return text;
-}
-
-const char* direction_text(Direction direction)
-{
-    switch (direction) {
-    case Direction::rising: return "rising";
-    case Direction::falling: return "falling";
-    case Direction::any: return "any";
+    using Kind = detail::RowsAsked::Kind;
+    const SampleTimes& times = input.times;
+    if (times.every > 0) return {Kind::every, times.every, 0, {}};
+    switch (times.kind) {
+    case Sampling::Kind::event:
+        return {Kind::event,
+                static_cast<std::size_t>(std::ranges::find(*input.events, times.event, &Event::name) -
+                                         input.events->begin()),
+                0,
+                {}};
+    case Sampling::Kind::standard:
+    case Sampling::Kind::count: break;
+    case Sampling::Kind::interval: return {Kind::interval, 0, static_cast<double>(times.interval.value_or(0)), {}};
+    case Sampling::Kind::at: return {Kind::at, 0, 0, doubles_of(times.at)};
     }
-    return "any";
-}
-
-std::string events_of(const std::vector<Event>& events)
-{
-    std::string text;
-    for (const Event& event : events)
-        text += fmt::format("{}{}:{}:{}:{}", text.empty() ? "" : ",", event.name, direction_text(event.direction),
-                            event.stop ? 1 : 0, event.count);
-    return text;
-}
-
-std::string text_of_columns(const std::vector<TableColumn>& columns)
-{
-    std::string text;
-    for (const TableColumn& column : columns)
-        text += fmt::format("{}{}{}", text.empty() ? "" : ",", column.state ? 's' : 'o', column.index);
-    return text.empty() ? "-" : text;
-}
-
-/// The line of a function that is followed, as driver.hpp describes it.
-Drift drift_of(std::string name, const std::string& value)
-{
-    const std::vector<std::string_view> parts = fields(value);
-    if (parts.size() != 7) throw InternalError("the program of a scene gave another figure");
-    const auto part = [&](std::size_t k) { return std::string(parts[k]); };
-    return {std::move(name), part(0), part(1), part(2), part(3), part(4), part(5), part(6)};
-}
-
-std::vector<std::string> numbers_of(const std::string& value)
-{
-    std::vector<std::string> numbers;
-    if (!value.empty())
-        for (const std::string_view each : fields(value)) numbers.emplace_back(each);
-    return numbers;
-}
-
-/// "NAME@T@STATE", and "@STATE" behind its jump.
-EventReport event_of(const std::string& value)
-{
-    std::vector<std::string> parts;
-    for (std::size_t begin = 0; begin <= value.size();) {
-        const std::size_t end = std::min(value.find('@', begin), value.size());
-        parts.push_back(value.substr(begin, end - begin));
-        begin = end + 1;
-    }
-    if (parts.size() < 3) throw InternalError("the program of a scene gave another event");
-    return {parts[0], parts[1], numbers_of(parts[2]), numbers_of(parts.size() > 3 ? parts[3] : "")};
-}
-
-void read_line(const std::string& key, const std::string& value, RunOutcome& outcome)
-{
-    const std::pair<std::string_view, std::vector<Drift>*> followed[] = {
-        {"invariant:", &outcome.invariants}, {"casimir:", &outcome.casimirs}, {"constraint:", &outcome.constraints}};
-    if (key == "status") outcome.status = value;
-    if (key == "t") outcome.time = value;
-    if (key == "state") {
-        const std::vector<std::string_view> lanes = fields(value);
-        if (lanes.size() != outcome.state.size()) throw InternalError("the program of a scene gave another state");
-        for (std::size_t k = 0; k < lanes.size(); ++k) outcome.state[k].second = lanes[k];
-    }
-    if (key == "below") { // "LANE:MOST"
-        const std::size_t colon = value.find(':');
-        const auto lane = static_cast<std::size_t>(std::strtoull(value.c_str(), nullptr, 10));
-        outcome.below_absolute.push_back({outcome.state.at(lane).first, value.substr(colon + 1)});
-    }
-    if (key == "failed_at") outcome.failed_at = value;
-    if (key == "branches") outcome.branches = numbers_of(value);
-    if (key == "others") outcome.others = numbers_of(value);
-    if (key == "steps") outcome.steps = value;
-    if (key == "rejected") outcome.rejected = value;
-    if (key == "rhs_calls") outcome.rhs_calls = value;
-    if (key == "newton") outcome.newton = value;
-    if (key == "decompositions") outcome.decompositions = value;
-    if (key == "seconds") outcome.seconds = value;
-    if (key == "event") outcome.events.push_back(event_of(value));
-    if (key == "starts_on") outcome.starts_on.push_back(value);
-    if (key == "balance") outcome.balance.push_back(drift_of("energy less work", value));
-    if (key == "work") outcome.work = value;
-    if (key == "energy" || key == "hamiltonian") outcome.invariants.push_back(drift_of(key, value));
-    for (const auto& [prefix, drifts] : followed)
-        if (key.starts_with(prefix)) drifts->push_back(drift_of(key.substr(prefix.size()), value));
-    if (key == "manifold") {
-        const std::size_t comma = value.find(',');
-        outcome.manifold = value.substr(0, comma);
-        outcome.manifold_time = value.substr(comma + 1);
-    }
+    return {Kind::count, times.count, 0, {}};
 }
 
 /// The place of `name` among `names`, or their number.
@@ -144,18 +60,6 @@ std::vector<std::string> entries_of(const KernelModule& module, const char* kern
 {
     if (!has_kernel(module, kernel)) return {};
     return kernel_named(module, kernel).outputs[0].entry_names;
-}
-
-/// At times, or by their number.
-void give_rows(const ProgramInput& input, const std::function<void(const char*, std::string)>& give)
-{
-    switch (input.times.kind) {
-    case Sampling::Kind::event: give("--at-event", input.times.event); break;
-    case Sampling::Kind::standard:
-    case Sampling::Kind::count: give("--samples", std::to_string(input.times.count)); break;
-    case Sampling::Kind::interval: give("--interval", text_of(*input.times.interval)); break;
-    case Sampling::Kind::at: give("--at-file", input.at_file); break;
-    }
 }
 
 } // namespace
@@ -214,52 +118,35 @@ void use_values(ProgramInput& input, const Scene& scene, const SceneValues& valu
     input.absolute = values.absolute.value_or(standard_tolerance);
 }
 
-std::string events_text(const ProgramInput& input)
+std::vector<detail::EventAsked> events_asked(const std::vector<Event>& events)
 {
-    return input.events == nullptr ? "" : events_of(*input.events);
+    std::vector<detail::EventAsked> asked;
+    for (const Event& event : events) {
+        const int direction = event.direction == Direction::rising ? 1 : event.direction == Direction::falling ? -1 : 0;
+        asked.push_back({event.name, direction, event.stop, static_cast<std::size_t>(event.count)});
+    }
+    return asked;
 }
 
-std::string columns_text(const ProgramInput& input)
+detail::RunJob job_of(const ProgramInput& input)
 {
-    return text_of_columns(input.columns);
-}
-
-std::vector<std::string> watch_arguments(const ProgramInput& input)
-{
-    std::vector<std::string> arguments;
-    if (std::string events = events_text(input); !events.empty()) arguments = {"--events", std::move(events)};
-    arguments.insert(arguments.end(), {"--columns", columns_text(input)});
-    return arguments;
-}
-
-std::vector<std::string> program_arguments(const std::string& program, const ProgramInput& input)
-{
-    std::vector<std::string> arguments{program,
-                                       "--initial",
-                                       list_of(input.initial),
-                                       "--start",
-                                       text_of(input.times.start),
-                                       "--end",
-                                       text_of(input.times.end)};
-    const auto give = [&](const char* name, std::string value) {
-        arguments.insert(arguments.end(), {name, std::move(value)});
-    };
-    if (!input.parameters.empty()) give("--parameters", list_of(input.parameters));
-    if (input.step) give("--step", text_of(*input.step));
-    if (input.relative) give("--relative", text_of(*input.relative));
-    if (input.absolute) give("--absolute", text_of(*input.absolute));
-    if (input.most_steps) give("--max-steps", std::to_string(*input.most_steps));
-    if (!input.held_inputs.empty()) give("--inputs", input.inputs_file);
-    if (input.from_arrow) give("--from", "arrow");
-    if (input.branch) give("--branch", std::to_string(*input.branch));
-    if (input.times.every > 0)
-        give("--every", std::to_string(input.times.every));
-    else
-        give_rows(input, give);
-    const std::vector<std::string> watched = watch_arguments(input);
-    arguments.insert(arguments.end(), watched.begin(), watched.end());
-    give("--report", input.report_file);
-    return arguments;
+    detail::RunJob job;
+    job.parameters = doubles_of(input.parameters);
+    job.initial = doubles_of(input.initial);
+    job.start = static_cast<double>(input.times.start);
+    job.end = static_cast<double>(input.times.end);
+    job.step = static_cast<double>(input.step.value_or(0));
+    if (input.relative) job.relative = static_cast<double>(*input.relative);
+    if (input.absolute) job.absolute = static_cast<double>(*input.absolute);
+    job.max_steps = input.most_steps.value_or(0);
+    job.from_arrow = input.from_arrow;
+    job.branch = input.branch.value_or(0);
+    job.rows = rows_asked(input);
+    for (const std::vector<double>& row : input.held_inputs)
+        job.input_rows.insert(job.input_rows.end(), row.begin(), row.end());
+    if (input.events != nullptr) job.events = events_asked(*input.events);
+    for (const TableColumn& column : input.columns) job.columns.push_back({!column.state, column.index});
+    return job;
 }
 
 void require_started(const ProcessResult& result, const std::string& program)
@@ -274,25 +161,6 @@ void refuse_end(const ProcessResult& result, const std::string& rest)
 {
     throw MachineError(
         fmt::format("error: the compiled scene ended with exit code {}\n{}", result.exit_code, result.error + rest));
-}
-
-void read_report(const std::string& text, RunOutcome& outcome)
-{
-    for (std::size_t begin = 0; begin < text.size();) {
-        const std::size_t end = std::min(text.find('\n', begin), text.size());
-        const std::string line = text.substr(begin, end - begin);
-        const std::size_t equals = line.find('=');
-        if (equals != std::string::npos) read_line(line.substr(0, equals), line.substr(equals + 1), outcome);
-        begin = end + 1;
-    }
-    if (outcome.status.empty()) throw InternalError("the program of a scene gave no report");
-    // A run that was refused at its start has measured nothing.
-    const bool refused = outcome.status == "not_separable" || outcome.status == "invalid_input" ||
-                         outcome.status == "singular_mass_matrix";
-    if (!refused || outcome.steps != "0") return;
-    for (auto* drifts : {&outcome.invariants, &outcome.balance, &outcome.casimirs, &outcome.constraints})
-        drifts->clear();
-    outcome.manifold.clear();
 }
 
 } // namespace lagen

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The program of a scene: its text, its arguments and its report, as runtime/program/lagen_run/driver.hpp defines
-/// them. That of a sweep takes the same ones.
+/// The program of a scene: its text, and the job that it is given.
 #pragma once
 
 #include "commands/machine/process.hpp"
 #include "commands/scene/methods.hpp"
-#include "commands/scene/run_report.hpp"
 #include "commands/scene/start_state.hpp"
 #include "graph/kernel.hpp"
+#include "lagen_run/job.hpp"
 #include "scene/sample_times.hpp"
 
 namespace lagen {
@@ -49,7 +48,7 @@ struct TableNames {
 /// `t` apart, what the scene observes: all states, or exactly its `observe` list.
 [[nodiscard]] std::vector<TableColumn> columns_of(const TableNames& names, const Scene& scene);
 
-/// Everything that the program is told.
+/// Everything that a run is told, before it is rounded to doubles.
 struct ProgramInput {
     std::string method_type; ///< the runtime's type of the method
     std::vector<long double> parameters;
@@ -59,33 +58,22 @@ struct ProgramInput {
     SampleTimes times;
     std::optional<long double> step, relative, absolute;
     std::optional<std::uint64_t> most_steps;      ///< without it the runtime's
-    std::string at_file;                          ///< path of the file with the times
     std::vector<std::vector<double>> held_inputs; ///< rows t, u_1, u_2, .. of a table; empty: none
-    std::string inputs_file;                      ///< path of the file with them
     const std::vector<Event>* events = nullptr;
     std::vector<TableColumn> columns;
-    std::string report_file;
 };
 
 /// Gives `input`, whose columns are known, what the values of the scene say. Throws as `finite_numbers`, `start` and
 /// sample_times (`stretch`) do.
 void use_values(ProgramInput& input, const Scene& scene, const SceneValues& values, StartState& start, bool stretch);
 
-/// The values of --events and --columns.
-[[nodiscard]] std::string events_text(const ProgramInput& input);
-[[nodiscard]] std::string columns_text(const ProgramInput& input);
-
-/// Events and columns, as the program takes them.
-[[nodiscard]] std::vector<std::string> watch_arguments(const ProgramInput& input);
-
-[[nodiscard]] std::vector<std::string> program_arguments(const std::string& program, const ProgramInput& input);
+/// Each number is the double next to it.
+[[nodiscard]] detail::RunJob job_of(const ProgramInput& input);
+[[nodiscard]] std::vector<detail::EventAsked> events_asked(const std::vector<Event>& events);
 
 /// Throws MachineError where the program was not started.
 void require_started(const ProcessResult& result, const std::string& program);
 /// MachineError of a program that ended as none may; `rest` stands behind what it said.
 [[noreturn]] void refuse_end(const ProcessResult& result, const std::string& rest = {});
-
-/// Reads the report's KEY=VALUE lines into `outcome`, whose state has its names.
-void read_report(const std::string& text, RunOutcome& outcome);
 
 } // namespace lagen

@@ -55,8 +55,8 @@ std::string SceneRun::not_finite(const RunOutcome& outcome)
     request.form = form_;
     request.only = {"rhs"};
     request.scene = &scene_;
-    std::map<std::string, double> at{{"t", std::strtod(outcome.time.c_str(), nullptr)}};
-    for (const auto& [name, value] : outcome.state) at[name] = std::strtod(value.c_str(), nullptr);
+    std::map<std::string, double> at{{"t", outcome.t}};
+    for (std::size_t k = 0; k < outcome.state.size(); ++k) at[outcome.lanes[k]] = outcome.state[k];
     for (const auto* numbers : {&values_.parameters, &values_.inputs})
         for (const auto& [name, value] : *numbers) at[name] = static_cast<double>(value);
     return non_finite_entry(form_kernels(checked.model, checked.system, checked.report, request), at);
@@ -76,7 +76,7 @@ RunOutcome SceneRun::integrate()
         outcome.absolute = fmt::format("{}", static_cast<double>(*input_.absolute));
     outcome.table.columns = {"t"};
     for (const TableColumn& column : input_.columns) outcome.table.columns.push_back(column.name);
-    for (const std::string& lane : record().names.lanes) outcome.state.emplace_back(lane, "");
+    outcome.lanes = record().names.lanes;
     outcome.left_out = names_without_values(checked_.model, form_);
     if (!is_uninterrupted([&] { integrate_scene(record().program, input_, outcome); })) return outcome;
     if (is_nonholonomic(checked_.model) && outcome.energy_changes) // reactions and drifts work on it: no invariant

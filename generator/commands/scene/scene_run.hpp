@@ -3,6 +3,7 @@
 #pragma once
 
 #include "commands/scene/preparation.hpp"
+#include "commands/scene/run_report.hpp"
 
 namespace lagen {
 

@@ -5,7 +5,6 @@
 
 #include <fmt/core.h>
 
-#include <cstdlib>
 #include <limits>
 
 namespace lagen {
@@ -72,7 +71,7 @@ std::optional<ProgramInput> with_half_the_step(const RunSetting& run, std::strin
 RunOutcome finer_run(const RunSetting& run, const ProgramInput& input, const RunOutcome& outcome)
 {
     RunOutcome second;
-    second.state = outcome.state;
+    second.table.columns = outcome.table.columns;
     (void)is_uninterrupted([&] { integrate_scene(run.program, input, second); });
     return second;
 }
@@ -90,9 +89,8 @@ SecondRun second_run_of(const Options& options)
 
 std::string reason_for_one_run(const RunOutcome& outcome, SecondRun wanted)
 {
-    const double seconds = std::strtod(outcome.seconds.c_str(), nullptr);
-    if (wanted == SecondRun::always || seconds <= longest) return "";
-    return fmt::format("not estimated, the run took {:.2g} s; --second-run makes a second one", seconds);
+    if (wanted == SecondRun::always || outcome.seconds <= longest) return "";
+    return fmt::format("not estimated, the run took {:.2g} s; --second-run makes a second one", outcome.seconds);
 }
 
 std::optional<ProgramInput> finer_input(const RunSetting& run, std::string& said)
@@ -102,13 +100,12 @@ std::optional<ProgramInput> finer_input(const RunSetting& run, std::string& said
 
 void judge_state(const RunSetting& run, SecondRun wanted, RunOutcome& outcome)
 {
-    const std::uint64_t steps = std::strtoull(outcome.steps.c_str(), nullptr, 10);
-    if (wanted == SecondRun::none || steps == 0) return;
+    if (wanted == SecondRun::none || outcome.steps == 0) return;
     outcome.second_run = reason_for_one_run(outcome, wanted);
     if (!outcome.second_run.empty()) return;
     std::optional<ProgramInput> input = finer_input(run, outcome.second_run);
     if (!input) return;
-    input->most_steps = most_times * (steps + std::strtoull(outcome.rejected.c_str(), nullptr, 10)) + spare_steps;
+    input->most_steps = most_times * (outcome.steps + outcome.rejected) + spare_steps;
     RunOutcome second = finer_run(run, *input, outcome);
     // The same steps confirm nothing.
     for (int k = 2; k <= most_tenths && run.method.adaptive && second.steps == outcome.steps; ++k) {
@@ -127,8 +124,7 @@ void judge_state(const RunSetting& run, SecondRun wanted, RunOutcome& outcome)
     if (!outcome.accuracy)
         outcome.second_run += " has no row to compare";
     else if (!succeeded(second.status) && second.status != outcome.status)
-        outcome.second_run +=
-            fmt::format(", which ends at t = {:.6g}: {}", std::strtod(second.time.c_str(), nullptr), second.status);
+        outcome.second_run += fmt::format(", which ends at t = {:.6g}: {}", second.t, second.status);
 }
 
 } // namespace lagen

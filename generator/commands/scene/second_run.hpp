@@ -3,6 +3,7 @@
 #pragma once
 
 #include "commands/line/options.hpp"
+#include "commands/scene/run_report.hpp"
 #include "commands/scene/scene_program.hpp"
 
 namespace lagen {

@@ -10,8 +10,8 @@
 namespace lagen {
 
 struct StateAccuracy {
-    double estimate = 0;       ///< the largest |w - w'|_2 of a row, divided by the largest |w'|_2
-    std::string holds_until{}; ///< t of the first row where |w - w'|_2 exceeds 1e-2 of the largest |w'|_2; or ""
+    double estimate = 0;                 ///< the largest |w - w'|_2 of a row, divided by the largest |w'|_2
+    std::optional<double> holds_until{}; ///< t of the first row where |w - w'|_2 exceeds 1e-2 of the largest |w'|_2
 };
 
 /// Rows are compared up to the first that only one of the tables has: both have the same times, unless they are

@@ -1,35 +1,24 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/scene/table.hpp"
 
+#include "lagen_run/text.hpp"
 #include "model/plain_names.hpp"
+
+#include <limits>
 
 namespace lagen {
 
-namespace {
-
-/// The pieces of `text` between separators, the last one included.
-std::vector<std::string_view> pieces(std::string_view text, char separator)
+double Table::last_time() const
 {
-    std::vector<std::string_view> list;
-    for (std::size_t begin = 0, end = 0; end != std::string_view::npos; begin = end + 1) {
-        end = text.find(separator, begin);
-        list.push_back(text.substr(begin, end == std::string_view::npos ? end : end - begin));
-    }
-    return list;
+    return count() == 0 ? std::numeric_limits<double>::quiet_NaN() : row(count() - 1)[0];
 }
 
-} // namespace
-
-std::vector<std::string_view> Table::lines() const
+double row_distance(std::span<const double> a, std::span<const double> b)
 {
-    std::vector<std::string_view> list = pieces(rows, '\n');
-    if (list.back().empty()) list.pop_back(); // every line ends
-    return list;
-}
-
-std::vector<std::string_view> fields(std::string_view line)
-{
-    return pieces(line, ',');
+    double most = 0;
+    for (std::size_t k = 1; k < a.size(); ++k)
+        if (std::isfinite(a[k]) && std::isfinite(b[k])) most = std::hypot(most, a[k] - b[k]);
+    return most;
 }
 
 std::string to_csv(const Table& table, const std::vector<std::string>& known)
@@ -37,8 +26,10 @@ std::string to_csv(const Table& table, const std::vector<std::string>& known)
     std::string text;
     for (const std::string& column : plain_names(table.columns, known)) text += (text.empty() ? "" : ",") + column;
     text += "\r\n";
-    text.reserve(text.size() + table.rows.size() + table.count);
-    for (const std::string_view line : table.lines()) text.append(line).append("\r\n");
+    for (std::size_t k = 0; k < table.count(); ++k) {
+        detail::append_fields(text, table.row(k));
+        text += "\r\n";
+    }
     return text;
 }
 

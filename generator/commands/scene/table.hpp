@@ -1,27 +1,33 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The rows of a run: kept as the text that the scene's program printed, so that no digit is lost or invented.
+/// The rows of a run.
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace lagen {
 
 struct Table {
     std::vector<std::string> columns; ///< "t", then states and observables
-    std::string rows;                 ///< CSV lines without the heading, '\n' after each
-    std::size_t count = 0;            ///< of rows
+    std::vector<double> numbers;      ///< row after row
 
-    /// The lines of `rows`.
-    [[nodiscard]] std::vector<std::string_view> lines() const;
+    /// Of whole rows.
+    [[nodiscard]] std::size_t count() const { return columns.empty() ? 0 : numbers.size() / columns.size(); }
+    [[nodiscard]] std::span<const double> row(std::size_t k) const
+    {
+        return std::span(numbers).subspan(k * columns.size(), columns.size());
+    }
+    /// The last time; NaN where there is none.
+    [[nodiscard]] double last_time() const;
 };
 
-/// The fields of one CSV line of numbers; an empty one stands for what is no finite number.
-[[nodiscard]] std::vector<std::string_view> fields(std::string_view line);
+/// |a - b|_2 over the columns behind t that are numbers in both.
+[[nodiscard]] double row_distance(std::span<const double> a, std::span<const double> b);
 
-/// RFC 4180: a heading, plain_names(columns, known), then the rows, CRLF line ends. `known`: the names of the model.
+/// RFC 4180: a heading, plain_names(columns, known), then the rows, CRLF line ends; numbers are the shortest decimals
+/// that read back as they are, what is no finite number is an empty field. `known`: the names of the model.
 [[nodiscard]] std::string to_csv(const Table& table, const std::vector<std::string>& known);
 
 } // namespace lagen

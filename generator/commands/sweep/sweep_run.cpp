@@ -3,9 +3,12 @@
 /// has the same bits.
 #include "commands/sweep/sweep_run.hpp"
 
+#include "commands/machine/temporary_folder.hpp"
 #include "commands/machine/write_file.hpp"
+#include "commands/scene/run_report.hpp"
 #include "commands/sweep/sweep_rows.hpp"
 #include "diagnostic.hpp"
+#include "lagen_run/archive.hpp"
 #include "model/families.hpp"
 #include "model/plain_names.hpp"
 
@@ -76,22 +79,15 @@ SweepRun::SweepRun(const SweepSetting& setting, const SweepRows& rows, const Sha
     input_.events = &setting_.scene.events;
 }
 
-std::vector<std::string> SweepRun::arguments() const
+detail::SweepJob SweepRun::job() const
 {
-    std::vector<std::string> list{setting_.record.program, "--threads", std::to_string(setting_.threads)};
+    ProgramInput common = input_;
     const Sampling& sampling = setting_.scene.sampling;
-    switch (sampling.kind) {
-    case Sampling::Kind::standard: break;
-    case Sampling::Kind::event: list.insert(list.end(), {"--at-event", sampling.event}); break;
-    case Sampling::Kind::count: list.insert(list.end(), {"--samples", std::to_string(sampling.count)}); break;
-    case Sampling::Kind::interval: list.insert(list.end(), {"--rows", "interval"}); break;
-    case Sampling::Kind::at:
-        list.insert(list.end(), {"--rows", "at", "--times", std::to_string(sampling.at.size())});
-        break;
-    }
-    const std::vector<std::string> watched = watch_arguments(input_);
-    list.insert(list.end(), watched.begin(), watched.end());
-    return list;
+    common.times.kind = sampling.kind;
+    common.times.event = sampling.event;
+    common.times.count = sampling.kind == Sampling::Kind::count ? sampling.count : 201;
+    common.times.at.resize(sampling.at.size());
+    return {job_of(common), setting_.threads};
 }
 
 /// The status of a row that cannot start, or "".
@@ -197,8 +193,11 @@ void SweepRun::run()
 {
     const std::uint64_t wanted = shard_.size(rows_.count);
     if (file_.rows() == wanted) return;
+    const TemporaryFolder folder(shared_temporary_folder(), "lagen-sweep");
+    const std::string file = folder.file("job");
+    write_file(file, detail::packed(job()));
     const ProcessResult result = run_process(
-        arguments(), [this](const char* bytes, std::size_t count) { take(bytes, count); },
+        {setting_.record.program, file}, [this](const char* bytes, std::size_t count) { take(bytes, count); },
         [this] { return next_starts(); });
     progress_.clear();
     require_started(result, setting_.record.program);

@@ -6,6 +6,7 @@
 #include "commands/sweep/sweep_file.hpp"
 #include "commands/sweep/sweep_progress.hpp"
 #include "commands/sweep/sweep_rows.hpp"
+#include "lagen_sweep/job.hpp"
 
 #include <deque>
 #include <set>
@@ -43,7 +44,7 @@ class SweepRun {
     [[nodiscard]] const std::set<std::string>& lanes_below_absolute() const { return lanes_below_absolute_; }
 
   private:
-    [[nodiscard]] std::vector<std::string> arguments() const;
+    [[nodiscard]] detail::SweepJob job() const;
     std::string next_starts();
     void append_start(std::string& bytes, std::uint64_t index);
     std::string start_of(const std::vector<std::string>& texts);

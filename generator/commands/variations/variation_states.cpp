@@ -163,8 +163,8 @@ std::optional<ActionReport> action_report(const RunOutcome& outcome, const Varia
 {
     if (request.count == 0 || outcome.status != "ok") return std::nullopt;
     const auto value = [&](const std::string& lane) {
-        const auto found = std::ranges::find(outcome.state, lane, &std::pair<std::string, std::string>::first);
-        return found == outcome.state.end() ? std::string() : found->second;
+        return outcome.state.at(
+            static_cast<std::size_t>(std::ranges::find(outcome.lanes, lane) - outcome.lanes.begin()));
     };
     ActionReport report{value("action"), {}, {}, {}, {}};
     for (std::size_t k = 1; k <= request.count; ++k) {

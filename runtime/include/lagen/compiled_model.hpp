@@ -131,8 +131,11 @@ class CompiledModel {
         return status;
     }
 
+    /// `ds` may be of any size before; one that is no rate yet takes memory.
     [[nodiscard]] [[gnu::always_inline]] Status rhs(double t, const State& s, State& ds) const noexcept
     {
+        if (ds.size() != lanes_) [[unlikely]]
+            ds.resize(lanes_);
         return status_of(rhs_(instance_, t, s.data(), ds.data()));
     }
 

@@ -3,12 +3,10 @@
 /// error against the reference and its cost. An entrant of a model M is made of (model, start, request) and has
 ///   PointOutcome operator()(double parameter, Observer& observer) const   one run; observer.row(t, s) at every sample
 ///   double steps_of(double parameter) const                               that are sure before the run; else 0
-/// For each point a program prints `point=METHOD` and `parameter=`, then lines as the report of `lagen run` has them:
-/// status, error, steps, rejected, rhs_calls, seconds (the least of several runs), and energy= (or hamiltonian=) and
-/// invariant:NAME= with their drifts.
+/// A program writes a PointReport for each point to standard output.
 #pragma once
 
-#include "lagen_chart/request.hpp"
+#include "lagen_chart/answer.hpp"
 #include "lagen_run/record.hpp"
 
 #include <array>
@@ -87,15 +85,18 @@ template <class M, class Entrant>
 std::pair<PointOutcome, double> show_point(const Entrant& entrant, const M& model, const Request& request,
                                            const std::string& name, double parameter)
 {
-    PointObserver<M> observer{{model, {}, true, nullptr}};
+    PointObserver<M> observer{{model, {}, nullptr}};
     PointOutcome outcome = entrant(parameter, observer);
-    const double error = error_of(observer.rows, request.reference);
-    std::printf("point=%s\nparameter=%.17g\nstatus=%s\n", name.c_str(), parameter, outcome.status);
-    if (outcome.good) std::printf("error=%.17g\n", error);
-    std::printf("steps=%zu\nrejected=%zu\nrhs_calls=%zu\nseconds=%.17g\n%s", outcome.steps, outcome.rejected,
-                outcome.calls, seconds_of<M>(entrant, parameter), observer.record.report().c_str());
-    std::fflush(stdout);
-    return {outcome, error};
+    PointReport point{name, parameter, error_of(observer.rows, request.reference), {}};
+    point.run.status = outcome.status;
+    point.run.steps = outcome.steps;
+    point.run.rejected = outcome.rejected;
+    point.run.rhs_calls = outcome.calls;
+    point.run.seconds = seconds_of<M>(entrant, parameter);
+    observer.record.report(point.run);
+    if (!outcome.good) point.error = detail::not_known;
+    answer(point);
+    return {outcome, point.error};
 }
 
 /// A tolerance as a person would give it: three digits.
@@ -144,7 +145,7 @@ int hold_contest(const std::array<std::string_view, sizeof...(Entrants)>& names,
     Request request;
     M model;
     typename M::State start;
-    if (argc != 2 || !read_request(argv[1], request) || !fill(request, model, start)) return 4;
+    if (!take_request(argc, argv, request, model, start)) return 4;
     if (request.reference.size() != 2 * request.at.size() * static_cast<std::size_t>(M::dimension)) return 4;
     for (const Ladder& ladder : request.ladders) {
         std::size_t k = 0;

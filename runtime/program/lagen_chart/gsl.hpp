@@ -36,7 +36,7 @@ class Gsl : public Peer<M> {
             gsl_odeiv2_driver_alloc_y_new(&system, Type::type(), this->first_step(), tolerance, tolerance);
         std::array<double, Peer<M>::lanes> s;
         for (std::size_t i = 0; i < s.size(); ++i) s[i] = this->start_[static_cast<Eigen::Index>(i)];
-        double t = this->request_.span.start;
+        double t = this->request_.start;
         PointOutcome outcome;
         for (const double time : this->request_.at) {
             outcome.good =

@@ -56,8 +56,8 @@ class Odeint : public Peer<M> {
         OdeintState<M> x;
         for (std::size_t i = 0; i < x.size(); ++i) x[i] = this->start_[static_cast<Eigen::Index>(i)];
         std::vector<double> times = this->request_.at;
-        const bool begins_later = times.empty() || times.front() != this->request_.span.start;
-        if (begins_later) times.insert(times.begin(), this->request_.span.start);
+        const bool begins_later = times.empty() || times.front() != this->request_.start;
+        if (begins_later) times.insert(times.begin(), this->request_.start);
         const auto rates = [this](const OdeintState<M>& s, OdeintState<M>& ds, double t) {
             if (!this->rates(t, s.data(), ds.data())) throw std::runtime_error("no rates");
         };

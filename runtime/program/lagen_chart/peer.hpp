@@ -44,7 +44,7 @@ class Peer {
     }
 
     /// A first step for those that ask for one, in the direction of the run.
-    [[nodiscard]] double first_step() const { return (request_.span.end - request_.span.start) / 1000; }
+    [[nodiscard]] double first_step() const { return (request_.end - request_.start) / 1000; }
 
     M model_;
     State start_;

@@ -30,8 +30,8 @@ struct OwnMethod {
             method.step = parameter;
         else
             method.relative = method.absolute = parameter;
-        const auto run =
-            integrate(model, start, request.span, method, {.at = request.at, .max_steps = request.most}, observer);
+        const auto run = integrate(model, start, {request.start, request.end}, method,
+                                   {.at = request.at, .max_steps = request.most}, observer);
         const Status status = run.status();
         return {to_text(status),
                 static_cast<bool>(run),
@@ -43,7 +43,7 @@ struct OwnMethod {
 
     [[nodiscard]] double steps_of([[maybe_unused]] double step) const
     {
-        if constexpr (requires { Method::step; }) return std::abs(request.span.end - request.span.start) / step;
+        if constexpr (requires { Method::step; }) return std::abs(request.end - request.start) / step;
         return 0;
     }
 };

@@ -5,29 +5,25 @@
 ///   #include "lagen_chart/reference.hpp"
 ///   int main(int argc, char** argv) { return lagen::chart_reference<lagen::models::NAME<lagen::Quad>,
 ///   lagen::METHOD>(argc, argv); }
-/// Its argument is the file of request.hpp. It prints a line a sample that was reached, HIGH LOW for every lane, and
-/// lines status=, t=, steps=, rhs_calls= behind them; where events are asked for no rows, and t is that of the event.
+/// It answers a ReferenceReport.
 #pragma once
 
 #include "lagen_chart/quad.hpp"
 
 #include "lagen/integrate.hpp"
-#include "lagen_chart/request.hpp"
-
-#include <cstdio>
+#include "lagen_chart/answer.hpp"
 
 namespace lagen {
 
 namespace chart {
 
-template <class M>
-void print_row(const typename M::State& s)
+template <class State>
+void add_row(const State& s, std::vector<double>& rows)
 {
     for (Eigen::Index i = 0; i < s.size(); ++i) {
-        const double high = static_cast<double>(s[i]);
-        std::printf("%s%.17g %.17g", i == 0 ? "" : " ", high, static_cast<double>(s[i] - Quad(high)));
+        rows.push_back(static_cast<double>(s[i]));
+        rows.push_back(static_cast<double>(s[i] - Quad(rows.back())));
     }
-    std::printf("\n");
 }
 
 template <class M, class Method>
@@ -36,15 +32,15 @@ Status run_to_event(const M& model, const typename M::State& start, const Reques
 {
     std::vector<EventRequest<Quad, typename M::State>> events;
     if constexpr (HasEvents<M>)
-        for (const EventAsked& asked : request.events)
+        for (const detail::EventAsked& asked : request.events)
             for (std::size_t k = 0; k < M::events_names.size(); ++k) {
                 if (asked.name != M::events_names[k]) continue;
-                const Crossing direction = asked.direction == "rising"    ? Crossing::rising
-                                           : asked.direction == "falling" ? Crossing::falling
-                                                                          : Crossing::any;
+                const Crossing direction = asked.direction > 0   ? Crossing::rising
+                                           : asked.direction < 0 ? Crossing::falling
+                                                                 : Crossing::any;
                 events.push_back({.index = k, .direction = direction, .stop = true, .count = asked.count});
             }
-    const auto run = integrate(model, start, {Quad(request.span.start), Quad(request.span.end)}, method,
+    const auto run = integrate(model, start, {Quad(request.start), Quad(request.end)}, method,
                                {.events = events, .max_steps = request.most});
     end = run.t;
     return run.status();
@@ -58,11 +54,11 @@ int chart_reference(int argc, char** argv)
     chart::Request request;
     M model;
     typename M::State start;
-    if (argc != 2 || !chart::read_request(argv[1], request) || !chart::fill(request, model, start)) return 4;
+    if (!chart::take_request(argc, argv, request, model, start)) return 4;
     const Method method{.tolerance = request.tolerance};
+    chart::ReferenceReport report;
     Status status = Status::ok;
-    Quad reached(request.span.start);
-    std::size_t steps = 0, calls = 0;
+    Quad reached(request.start);
     if (!request.events.empty()) {
         status = chart::run_to_event(model, start, request, method, reached);
     } else {
@@ -73,14 +69,15 @@ int chart_reference(int argc, char** argv)
                                                                                    : Status::too_many_steps;
             reached = integrator.t();
             if (status != Status::ok) break;
-            chart::print_row<M>(integrator.state());
+            chart::add_row(integrator.state(), report.rows);
         }
-        steps = integrator.steps();
-        calls = integrator.rhs_calls();
+        report.steps = integrator.steps();
+        report.calls = integrator.rhs_calls();
     }
-    std::printf("status=%s\nt=%.17g\nsteps=%zu\nrhs_calls=%zu\n", to_text(status), static_cast<double>(reached), steps,
-                calls);
-    return std::fflush(stdout) == 0 ? 0 : 5;
+    report.status = to_text(status);
+    report.t = static_cast<double>(reached);
+    chart::answer(report);
+    return std::ferror(stdout) == 0 ? 0 : 5;
 }
 
 } // namespace lagen

@@ -1,103 +1,58 @@
 // SPDX-License-Identifier: MIT
-/// What the programs of `lagen chart` are asked for: a file of lines of words,
-///   parameters v v ..            every parameter, in the order of the header
-///   initial v v ..               every state lane, base first
-///   span START END
-///   at T T ..                    sample times, in the direction of the run
-///   reference HIGH LOW ..        at each of them every lane of the reference, as the sum of two doubles
-///   tolerance TOL, most N        of the reference: the tolerance; of each run: steps
-///   event NAME DIRECTION COUNT   of the reference: the run ends there (DIRECTION rising, falling or any)
-///   ladder METHOD FIRST RATIO LAST CALLS   points FIRST, FIRST RATIO, .. to LAST, or until so many calls are expected;
-///                                one point where RATIO is 1
-/// Numbers are decimals with the digits of a double.
+/// What the programs of `lagen chart` are asked for in a file, and what they answer (lagen_run/archive.hpp). No name of
+/// the runtime is in here.
 #pragma once
 
-#include "lagen/integrate/options.hpp"
-
-#include <cstddef>
-#include <fstream>
-#include <sstream>
-#include <string>
-#include <vector>
+#include "lagen_run/job.hpp"
+#include "lagen_run/report.hpp"
 
 namespace lagen::chart {
 
+/// Points first, first ratio, .. to last, or until so many calls are expected; one point where the ratio is 1.
 struct Ladder {
     std::string method;
     double first = 0, ratio = 1, last = 0;
     std::size_t calls = 0; ///< no point is run that is expected to take more
-};
 
-struct EventAsked {
-    std::string name, direction;
-    std::size_t count = 1;
+    static void each(auto& self, auto& archive) { archive(self.method, self.first, self.ratio, self.last, self.calls); }
 };
 
 struct Request {
-    std::vector<double> parameters, initial, at, reference;
-    Interval<double> span{0, 0};
-    double tolerance = 1e-20;
-    std::size_t most = 1'000'000;
-    std::vector<EventAsked> events;
+    std::vector<double> parameters; ///< every one, in the order of the header
+    std::vector<double> initial;    ///< every state lane, base first
+    double start = 0, end = 0;
+    std::vector<double> at;                 ///< sample times, in the direction of the run
+    std::vector<double> reference;          ///< at each of them every lane of the reference, as the sum of two doubles
+    double tolerance = 1e-20;               ///< of the reference
+    std::size_t most = 1'000'000;           ///< steps of each run
+    std::vector<detail::EventAsked> events; ///< of the reference: the run ends there
     std::vector<Ladder> ladders;
+
+    static void each(auto& self, auto& archive)
+    {
+        archive(self.parameters, self.initial, self.start, self.end, self.at, self.reference, self.tolerance, self.most,
+                self.events, self.ladders);
+    }
 };
 
-inline std::vector<double> rest_of(std::istringstream& words)
-{
-    std::vector<double> numbers;
-    for (std::string word; words >> word;) numbers.push_back(std::strtod(word.c_str(), nullptr));
-    return numbers;
-}
+/// A run of a method with one tolerance or step.
+struct PointReport {
+    std::string method;
+    double parameter = 0;
+    double error = detail::not_known; ///< against the reference; none where the run failed
+    detail::RunReport run;            ///< its seconds are the least of several runs
 
-/// False where the file cannot be read or a line says something else.
-inline bool read_request(const char* path, Request& request)
-{
-    std::ifstream file(path);
-    if (!file) return false;
-    for (std::string line; std::getline(file, line);) {
-        std::istringstream words(line);
-        std::string key;
-        words >> key;
-        Ladder ladder;
-        EventAsked event;
-        if (key == "parameters")
-            request.parameters = rest_of(words);
-        else if (key == "initial")
-            request.initial = rest_of(words);
-        else if (key == "at")
-            request.at = rest_of(words);
-        else if (key == "reference")
-            request.reference = rest_of(words);
-        else if (key == "span" && words >> request.span.start >> request.span.end)
-            continue;
-        else if (key == "tolerance" && words >> request.tolerance)
-            continue;
-        else if (key == "most" && words >> request.most)
-            continue;
-        else if (key == "event" && words >> event.name >> event.direction >> event.count)
-            request.events.push_back(event);
-        else if (key == "ladder" &&
-                 words >> ladder.method >> ladder.first >> ladder.ratio >> ladder.last >> ladder.calls)
-            request.ladders.push_back(ladder);
-        else
-            return false;
-    }
-    return true;
-}
+    static void each(auto& self, auto& archive) { archive(self.method, self.parameter, self.error, self.run); }
+};
 
-/// The model with the parameters asked for, and the start; false where the numbers of them differ.
-template <class M>
-bool fill(const Request& request, M& model, typename M::State& start)
-{
-    using Scalar = typename M::Scalar;
-    if (request.initial.size() != static_cast<std::size_t>(M::dimension)) return false;
-    for (std::size_t i = 0; i < request.initial.size(); ++i)
-        start[static_cast<Eigen::Index>(i)] = Scalar(request.initial[i]);
-    if constexpr (HasParameters<M>) {
-        if (request.parameters.size() != M::parameter_names.size()) return false;
-        for (std::size_t k = 0; k < request.parameters.size(); ++k) model.parameter(k) = Scalar(request.parameters[k]);
-    }
-    return true;
-}
+/// What a reference came to; where events are asked for no rows, and `t` is that of the event.
+struct ReferenceReport {
+    std::string status;
+    double t = 0;
+    std::size_t steps = 0, calls = 0;
+    std::vector<double> rows; ///< high and low part of every lane, a sample that was reached after the other
+
+    static void each(auto& self, auto& archive) { archive(self.status, self.t, self.steps, self.calls, self.rows); }
+};
 
 } // namespace lagen::chart

@@ -32,14 +32,14 @@ class CvodeAdams : public Peer<M> {
         double* numbers = N_VGetArrayPointer(s);
         for (std::size_t i = 0; i < this->lanes; ++i) numbers[i] = this->start_[static_cast<Eigen::Index>(i)];
         void* memory = CVodeCreate(CV_ADAMS, context);
-        CVodeInit(memory, &CvodeAdams::call, this->request_.span.start, s);
+        CVodeInit(memory, &CvodeAdams::call, this->request_.start, s);
         CVodeSetErrFile(memory, nullptr);
         CVodeSStolerances(memory, tolerance, tolerance);
         CVodeSetUserData(memory, const_cast<CvodeAdams*>(this));
         CVodeSetMaxNumSteps(memory, static_cast<long>(this->request_.most));
         SUNNonlinearSolver solver = SUNNonlinSol_FixedPoint(s, 0, context);
         CVodeSetNonlinearSolver(memory, solver);
-        double t = this->request_.span.start;
+        double t = this->request_.start;
         for (const double time : this->request_.at) {
             outcome.good = time == t || CVode(memory, time, s, &t, CV_NORMAL) >= 0;
             if (!outcome.good) break;

@@ -3,10 +3,9 @@
 #pragma once
 
 #include "lagen/integrate.hpp"
-#include "lagen_run/text.hpp"
+#include "lagen_run/report.hpp"
 
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace lagen::detail {
@@ -27,8 +26,8 @@ template <class M>
 class Branches {
   public:
     Branches(const M&, double, bool) {}
-    [[nodiscard]] Status begin(typename M::State&, const std::optional<std::size_t>&) { return Status::ok; }
-    [[nodiscard]] std::string report(const Run<M>&) const { return {}; }
+    [[nodiscard]] Status begin(typename M::State&, std::size_t) { return Status::ok; }
+    void report(const Run<M>&, RunReport&) const {}
 };
 
 template <DiscreteMotion M>
@@ -39,9 +38,9 @@ class Branches<M> {
     /// `from_arrow`: the momenta are those of the arrow, whatever they are.
     Branches(const M& model, double t, bool from_arrow) : model_(model), t_(t), from_arrow_(from_arrow) {}
 
-    /// The start of the run into s; no_solution where it is to be that of a branch which is not found, branch_lost
-    /// where the inner unknowns of the arrow are not found, as of a half turn by exp.
-    [[nodiscard]] Status begin(State& s, const std::optional<std::size_t>& branch)
+    /// The start of the run into s; no_solution where it is to be that of a branch (from 1 on) which is not found,
+    /// branch_lost where the inner unknowns of the arrow are not found, as of a half turn by exp.
+    [[nodiscard]] Status begin(State& s, std::size_t branch)
     {
         const State given = s;
         if (from_arrow_) s = at_arrow(model_, t_, s);
@@ -50,22 +49,21 @@ class Branches<M> {
             return Status::branch_lost;
         }
         start_ = s;
-        if (!branch) return Status::ok;
+        if (branch == 0) return Status::ok;
         found_ = arrows_of_momenta(model_, t_, s);
-        if (*branch == 0 || *branch > found_->size()) return Status::no_solution;
-        s = (*found_)[*branch - 1].state;
+        if (branch > found_->size()) return Status::no_solution;
+        s = (*found_)[branch - 1].state;
         return Status::ok;
     }
 
-    /// The lines `branches` and `others` (driver.hpp).
-    [[nodiscard]] std::string report(const Run<M>& run)
+    /// Tells `branches` and `others`.
+    void report(const Run<M>& run, RunReport& report)
     {
         const bool lost = run.status() == Status::no_solution || run.status() == Status::branch_lost ||
                           run.status() == Status::newton_diverged;
         if (lost && !found_ && !from_arrow_) found_ = arrows_of_momenta(model_, t_, start_);
-        std::string text = found_ ? "branches=" + distances(*found_) + "\n" : "";
-        if (lost && run.failed_at != run.t) text += "others=" + distances(others_behind(run)) + "\n";
-        return text;
+        if (found_) report.branches = distances(*found_);
+        if (lost && run.failed_at != run.t) report.others = distances(others_behind(run));
     }
 
   private:
@@ -84,11 +82,11 @@ class Branches<M> {
         return ArrowSearch<M>(model_, run.t + model_.step(), s).found(true);
     }
 
-    [[nodiscard]] static std::string distances(const Arrows& arrows)
+    [[nodiscard]] static std::vector<double> distances(const Arrows& arrows)
     {
-        std::string text;
-        for (const FoundArrow<M>& arrow : arrows) text += (text.empty() ? "" : ",") + number_text(arrow.distance);
-        return text;
+        std::vector<double> list;
+        for (const FoundArrow<M>& arrow : arrows) list.push_back(arrow.distance);
+        return list;
     }
 
     const M& model_;

@@ -1,67 +1,20 @@
 // SPDX-License-Identifier: MIT
-/// The program behind `lagen run`: integrates one model with one method as its arguments say. The whole generated main
-/// is
+/// A run of a scene, as its job says (job.hpp): in the process over a compiled model, or in a program of one model and
+/// one method, whose whole generated main is
 ///   #include "model.hpp"
 ///   #include "lagen_run/driver.hpp"
 ///   int main(int argc, char** argv) { return lagen::drive<lagen::models::NAME<double>, lagen::METHOD>(argc, argv); }
+/// Its arguments are the file of the job and that of the report (archive.hpp); rows go to standard output as native
+/// doubles. Exit codes: 0 the run came to an end, which the report tells, 4 there is no job that fits the model, 5 a
+/// file or the rows could not be written, or there is not memory enough, 130 interrupted by SIGINT or SIGTERM: there
+/// are the rows so far, and the report.
 ///
-/// Arguments, each followed by its value (numbers as strtod reads them, hexadecimal included):
-///   --parameters v,v,..   every parameter, in the order of the header; left out: the defaults
-///   --initial v,v,..      every state lane, base first; required
-///   --start T --end T     the interval; start is 0 where left out, end is required and may be smaller
-///   --step H              fixed-step methods; required there (positive; the sign follows the interval)
-///   --relative R --absolute A   adaptive methods; default 1e-9 each
-///   --max-steps N
-///   --from arrow          a discrete motion: the momenta are those of the arrow, whatever --initial gives
-///   --branch N            one that starts from momenta: its first arrow is the N-th of those that are found
-///   (branches.hpp)
-///   --inputs FILE         rows t u u ..: inputs, in the order of the header, that are held until the next row
-///   (held_inputs.hpp)
-///   --every N             rows at the start and behind every N-th step; the rows of a discrete motion
-///   --samples N | --interval H | --at-file FILE | --at-event NAME   rows at N even times, every H from the start on
-///                         (and the end), at the numbers of FILE (separated by space or comma, in the direction of
-///                         time), or at each crossing of one of --events. Default: --samples 201
-///   --events name:direction:stop:count,..   direction rising, falling or any; stop 0 or 1; count from 1; names of the
-///                         header. Behind one that stands in its jumps_names the state jumps
-///   --columns c,c,..      s0, s1, .. state lanes; o0, o1, .. entries of observables(); left out: every state lane;
-///   "-": none
-///   --format csv|binary   rows on standard output: CSV of shortest decimals (an empty field for what is no finite
-///   number), commas, "\n", no heading; or native doubles, row after row
-///   --report FILE         where the report goes ("-": standard error)
-///
-/// A row is t, then the columns. Rows appear while the run goes on, at exactly the times asked for; where an event or a
-/// failure ends the run after its start, one more row stands at the end, the last good state at its time (unless that
-/// was asked for anyway; rows of --at-file and --at-event are exactly what is written). The report, at the end of every
-/// run, has lines KEY=VALUE in this order, numbers as shortest decimals, those in brackets only where the model has the
-/// part:
-///   status=ok             as to_text(Status)
-///   t=10                  time of the last good state
-///   failed_at=10          time at which the run met what ended it; the same as t where nothing failed
-///   steps=  rejected=  rhs_calls=  [newton=  decompositions=]  rows=  seconds=      those in brackets of implicit
-///   methods
-///   event=NAME@T@v,v,..   one line an event found, in the order of the run, with the state there; with @v,v,.. more
-///                         where it jumps: the state behind all jumps of that instant
-///   starts_on=NAME        one line an event on or beyond whose zero the run starts, and which for that reason does not
-///                         happen there
-///   [energy= or hamiltonian=]  [balance=, work=]  [invariant:NAME=]  [constraint:NAME=]  [casimir:NAME=]
-///                         INITIAL,MOST,T,SLOPE,ERROR,SIZE,MOVED_AT, over the steps that figures.hpp names: the first
-///                         value; the largest distance from it (from 0, of constraints) and where that was; slope and
-///                         error of slope.hpp; where the distance was more than 1e-3 of |value|, the size of
-///                         figures.hpp and where it first was more than 1e-3 of that ("nan" where there is none).
-///                         balance: the energy less the work, which is the integral of the power up to the end
-///   [manifold=DISTANCE,T] the largest distance from where the constraints hold, to first order, and where that was
-///   [below=LANE:MOST]     one line a lane that moved and never exceeded --absolute, with its largest |s_i|
-///   [branches=d,d,..]     distances of the arrows that are found with the momenta of a discrete start: with --branch,
-///                         and where no step leads on (no_solution, branch_lost, newton_diverged) from momenta
-///   [others=d,d,..]       of those with the momenta of the step that failed, from the arrow before
-///   state=v,v,..          the last good state
-/// Exit codes: 0 ok or stopped by an event, 1 another status, 4 wrong arguments (one sentence on standard error, no
-/// report), 5 a file could not be read or written, or there is not memory enough, 130 interrupted (SIGINT, SIGTERM:
-/// rows so far are kept, the report is written).
+/// Where an event or a failure ends a run after its start, one more row stands at the end, the last good state at its
+/// time, unless that is a row anyway, or rows are asked for at times or at an event: those are exactly what is given.
 #pragma once
 
 #include "lagen/integrate.hpp"
-#include "lagen_run/arguments.hpp"
+#include "lagen_run/archive.hpp"
 #include "lagen_run/branches.hpp"
 #include "lagen_run/held_inputs.hpp"
 #include "lagen_run/model_parts.hpp"
@@ -71,7 +24,6 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
-#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -86,151 +38,80 @@ extern "C" inline void lagen_drive_interrupt(int)
     drive_interrupted = 1;
 }
 
-/// Everything made of the arguments that needs the model.
+/// Everything made of the job that needs the model. It stays where it is while its events are used: they jump by the
+/// model in here.
 template <class M>
-struct DrivePlan {
+struct RunPlan {
     M model;
     typename M::State initial;
     Interval<double> span{0, 0};
     std::vector<double> times;
     HeldInputs inputs;
     std::vector<EventRequest<double, typename M::State>> events;
-    std::vector<std::string> event_names;
-    std::vector<DriveColumn> columns;
 };
 
+/// Parameters, start and times. Each of these functions answers false where the job does not fit.
 template <class M>
-Complaint plan_values(const DriveArguments& given, DrivePlan<M>& plan)
+[[nodiscard]] bool plan_values(const RunJob& job, RunPlan<M>& plan)
 {
     const auto lanes = static_cast<std::size_t>(lane_count(plan.model));
-    if (given.initial.size() != lanes)
-        return "--initial: " + std::to_string(given.initial.size()) + " numbers, " + std::to_string(lanes) +
-               " are required";
+    const std::size_t parameters = job.parameters.size();
+    if (job.initial.size() != lanes || (parameters > 0 && parameters != parameters_of(plan.model).size())) return false;
     plan.initial.resize(static_cast<Eigen::Index>(lanes));
-    for (std::size_t i = 0; i < given.initial.size(); ++i)
-        plan.initial[static_cast<Eigen::Index>(i)] = given.initial[i];
-    if (given.parameters.empty()) return {};
-    const std::size_t count = parameters_of(plan.model).size();
-    if (given.parameters.size() != count)
-        return "--parameters: " + std::to_string(given.parameters.size()) + " numbers, " + std::to_string(count) +
-               " are required";
-    for (std::size_t k = 0; k < count; ++k) set_parameter(plan.model, k, given.parameters[k]);
-    return {};
+    for (std::size_t i = 0; i < lanes; ++i) plan.initial[static_cast<Eigen::Index>(i)] = job.initial[i];
+    for (std::size_t k = 0; k < parameters; ++k) set_parameter(plan.model, k, job.parameters[k]);
+    plan.span = {job.start, job.end};
+    return (!DiscreteMotion<M> || job.rows.kind == RowsAsked::Kind::every) &&
+           plan_rows(job.rows, job.start, job.end, plan.times);
 }
 
 template <class M>
-Complaint plan_times(const DriveArguments& given, DrivePlan<M>& plan)
+[[nodiscard]] bool plan_columns(const RunJob& job, const M& model)
 {
-    if (!given.end) return "--end is required";
-    plan.span = {given.start.value_or(0.0), *given.end};
-    if (given.every) return *given.every > 0 ? Complaint{} : "--every: a positive number of steps is required";
-    if (DiscreteMotion<M>) return "--every: the rows of a discrete motion are at its steps";
-    if (!given.at_event.empty()) return plan.times.clear(), Complaint{};
-    if (given.at) {
-        plan.times = *given.at;
-        return check_order(plan.times, plan.span.end < plan.span.start);
-    }
-    if (given.interval) {
-        if (!(*given.interval > 0)) return "--interval: " + number_text(*given.interval) + " is not positive";
-        const double pieces = std::abs(plan.span.end - plan.span.start) / *given.interval;
-        if (!(pieces <= most_rows)) return "--interval: " + number_text(*given.interval) + " makes more than 1e8 rows";
-        plan.times = spaced_times(plan.span.start, plan.span.end, *given.interval);
-        return {};
-    }
-    const std::size_t samples = given.samples.value_or(201);
-    if (static_cast<double>(samples) > most_rows) return "--samples: more than 1e8 rows";
-    plan.times = even_times(plan.span.start, plan.span.end, samples);
-    return {};
+    return std::ranges::all_of(job.columns, [&](const DriveColumn& column) {
+        return column.index <
+               (column.observable ? observables_of(model).size() : static_cast<std::size_t>(lane_count(model)));
+    });
 }
 
-/// "s3" or "o1".
 template <class M>
-Complaint plan_columns(const DriveArguments& given, DrivePlan<M>& plan)
+[[nodiscard]] bool plan_events(const RunJob& job, RunPlan<M>& plan)
 {
-    if (!given.columns) {
-        for (Eigen::Index i = 0; i < lane_count(plan.model); ++i) plan.columns.push_back({false, i});
-        return {};
-    }
-    if (*given.columns == "-") return {};
-    for (const std::string& text : split(*given.columns, ',')) {
-        const bool observable = !text.empty() && text[0] == 'o';
-        const auto count =
-            observable ? observables_of(plan.model).size() : static_cast<std::size_t>(lane_count(plan.model));
-        const auto index = text.empty() || (text[0] != 's' && !observable) ? std::nullopt : read_count(text.substr(1));
-        if (!index || *index >= count)
-            return "--columns: \"" + text + "\" is neither a state lane nor an observable of the model";
-        plan.columns.push_back({observable, static_cast<Eigen::Index>(*index)});
-    }
-    return {};
-}
-
-/// "name:direction:stop:count"; a name may hold colons itself.
-template <class M>
-Complaint plan_event(const std::string& text, DrivePlan<M>& plan)
-{
-    std::vector<std::string> parts = split(text, ':');
-    const Complaint wrong = "--events: \"" + text + "\" is not name:direction:stop:count with an event of the model";
-    if (parts.size() < 4) return wrong;
-    std::string name = parts[0];
-    for (std::size_t i = 1; i + 3 < parts.size(); ++i) name += ':' + parts[i];
-    const std::string& direction = parts[parts.size() - 3];
-    const std::string& stop = parts[parts.size() - 2];
-    const auto count = read_count(parts.back());
-    EventRequest<double, typename M::State> request;
-    bool known = false;
-    const Names events = events_of(plan.model);
-    for (std::size_t k = 0; k < events.size() && !known; ++k) {
-        known = name == events[k];
-        request.index = k;
-    }
-    if (!known || !count || *count == 0 || (stop != "0" && stop != "1")) return wrong;
-    if (direction == "rising")
-        request.direction = Crossing::rising;
-    else if (direction == "falling")
-        request.direction = Crossing::falling;
-    else if (direction != "any")
-        return wrong;
-    request.stop = stop == "1";
-    request.count = *count;
-    plan.events.push_back(request);
-    plan.event_names.push_back(name);
-    return {};
-}
-
-/// Rows at the crossings of an event, and the jumps of events, which are those of the plan's own model: it stays where
-/// it is while they are used.
-template <class M>
-Complaint plan_crossings(const DriveArguments& given, DrivePlan<M>& plan)
-{
-    bool known = given.at_event.empty();
-    for (std::size_t k = 0; k < plan.events.size(); ++k) {
-        plan.events[k].row = plan.event_names[k] == given.at_event;
-        known = known || plan.events[k].row;
+    const Names known = events_of(plan.model);
+    plan.events.clear();
+    for (std::size_t k = 0; k < job.events.size(); ++k) {
+        const EventAsked& asked = job.events[k];
+        EventRequest<double, typename M::State> request;
+        while (request.index < known.size() && asked.name != known[request.index]) ++request.index;
+        if (request.index == known.size()) return false;
+        if (asked.direction != 0) request.direction = asked.direction > 0 ? Crossing::rising : Crossing::falling;
+        request.stop = asked.stop;
+        request.count = asked.count;
+        request.row = job.rows.kind == RowsAsked::Kind::event && job.rows.count == k;
         if constexpr (HasJumps<M>)
             for (std::size_t j = 0; j < jumps_of(plan.model).size(); ++j)
-                if (plan.event_names[k] == jumps_of(plan.model)[j])
-                    plan.events[k].jump = [&model = plan.model, j](double t, const typename M::State& s) {
+                if (asked.name == jumps_of(plan.model)[j])
+                    request.jump = [&model = plan.model, j](double t, const typename M::State& s) {
                         return typename M::State(model.jumps(t, s).col(static_cast<Eigen::Index>(j)));
                     };
+        plan.events.push_back(request);
     }
-    return known ? Complaint{} : "--at-event: \"" + given.at_event + "\" is none of --events";
+    return true;
 }
 
 template <class M, class Method>
-Complaint plan_method(const DriveArguments& given, Method& method)
+[[nodiscard]] bool plan_method(const RunJob& job, Method& method)
 {
-    if (given.branch && !DiscreteMotion<M>) return "--branch: the arrows of a discrete motion have branches";
     if constexpr (DiscreteMotion<M>) {
-        if (given.step) return "--step: the step is a parameter of this model";
+        return true; // the step is a parameter of the model
     } else if constexpr (requires { method.step; }) {
-        if (!given.step || !(*given.step > 0)) return "--step: a positive step is required by this method";
-        method.step = *given.step;
+        method.step = job.step;
+        return job.step > 0;
     } else {
-        method.relative = given.relative.value_or(method.tolerance);
-        method.absolute = given.absolute.value_or(method.tolerance);
-        if (!method.control().is_valid()) return "--relative, --absolute: not negative and not both zero is required";
+        method.relative = job.relative;
+        method.absolute = job.absolute;
+        return method.control().is_valid();
     }
-    return {};
 }
 
 /// The absolute tolerance; 0 of fixed steps.
@@ -242,74 +123,52 @@ double absolute_of(const Method& method) noexcept
 }
 
 template <class M, class Method>
-Complaint make_plan(const DriveArguments& given, DrivePlan<M>& plan, Method& method)
+[[nodiscard]] bool make_plan(const RunJob& job, RunPlan<M>& plan, Method& method)
 {
-    Complaint complaint = plan_values(given, plan);
-    if (complaint.empty()) complaint = plan_times(given, plan);
-    if (complaint.empty())
-        complaint = plan_inputs(given.input_rows, inputs_of(plan.model).size(), plan.span, plan.inputs);
-    if (complaint.empty()) complaint = plan_columns(given, plan);
-    if (complaint.empty()) complaint = plan_method<M>(given, method);
-    for (const std::string& event : split(given.events, ','))
-        if (complaint.empty()) complaint = plan_event(event, plan);
-    return complaint.empty() ? plan_crossings(given, plan) : complaint;
+    return plan_values(job, plan) && plan_columns(job, plan.model) &&
+           plan_inputs(job.input_rows, inputs_of(plan.model).size(), plan.span, plan.inputs) &&
+           plan_events(job, plan) && plan_method<M>(job, method);
+}
+
+template <class State>
+std::vector<double> lanes_of_state(const State& s)
+{
+    return {s.data(), s.data() + s.size()};
 }
 
 template <class M>
-std::string report_text(const DrivePlan<M>& plan, const Run<M>& run, const DriveRecord<M>& record, double seconds,
-                        const std::string& branches)
+RunReport report_of(const RunJob& job, const RunPlan<M>& plan, const Run<M>& run)
 {
-    std::string text = std::string("status=") + to_text(run.status()) + '\n';
-    text += "t=" + number_text(run.t) + "\nfailed_at=" + number_text(run.failed_at) + '\n';
-    text += "steps=" + std::to_string(run.steps) + "\nrejected=" + std::to_string(run.rejected) + '\n';
-    text += "rhs_calls=" + std::to_string(run.rhs_calls) + '\n';
-    if (run.newton_iterations != 0) text += "newton=" + std::to_string(run.newton_iterations) + '\n';
-    if (run.decompositions != 0) text += "decompositions=" + std::to_string(run.decompositions) + '\n';
-    text += "rows=" + std::to_string(record.rows()) + '\n';
-    text += "seconds=" + number_text(seconds) + '\n';
-    const auto put = [&](const typename M::State& s) {
-        for (Eigen::Index i = 0; i < s.size(); ++i) text += (i == 0 ? "" : ",") + number_text(s[i]);
-    };
+    RunReport report;
+    report.status = to_text(run.status());
+    report.t = run.t;
+    report.failed_at = run.failed_at;
+    report.steps = run.steps;
+    report.rejected = run.rejected;
+    report.rhs_calls = run.rhs_calls;
+    report.newton = run.newton_iterations;
+    report.decompositions = run.decompositions;
+    report.state = lanes_of_state(run.state);
     for (const auto& found : run.events) {
-        text += "event=" + plan.event_names[found.request] + '@' + number_text(found.t) + '@';
-        put(found.state);
-        if (plan.events[found.request].jump) text += '@', put(found.after);
-        text += '\n';
+        report.events.push_back({job.events[found.request].name, found.t, lanes_of_state(found.state), {}});
+        if (plan.events[found.request].jump) report.events.back().after = lanes_of_state(found.after);
     }
-    for (const std::size_t request : run.starts_on) text += "starts_on=" + plan.event_names[request] + '\n';
-    text += record.report() + branches + "state=";
-    put(run.state);
-    return text + '\n';
+    for (const std::size_t request : run.starts_on) report.starts_on.push_back(job.events[request].name);
+    return report;
 }
 
-/// False where the text could not be written.
-inline bool write_report(const std::string& path, const std::string& text)
-{
-    if (path.empty()) return true;
-    std::FILE* file = path == "-" ? stderr : std::fopen(path.c_str(), "w");
-    if (file == nullptr) return false;
-    bool good = std::fwrite(text.data(), 1, text.size(), file) == text.size();
-    if (file == stderr) return std::fflush(file) == 0 && good;
-    return std::fclose(file) == 0 && good;
-}
-
-inline int complain(const std::string& complaint, int code)
-{
-    std::fprintf(stderr, "error: %s\n", complaint.c_str());
-    return code;
-}
-
-/// Integrates what the plan asks for and writes the rows; answers the report that the top of the file describes.
+/// Integrates what the plan of `job` asks for, and gives the rows.
 template <class M, class Method>
-std::string run_plan(DrivePlan<M>& plan, const Method& method, const DriveArguments& given, const RowSink& rows,
-                     const volatile std::sig_atomic_t* signal, Status& status)
+RunReport run_plan(RunPlan<M>& plan, const Method& method, const RunJob& job, const RowTaker& rows,
+                   const volatile std::sig_atomic_t* signal)
 {
-    DriveRecord<M> record(plan.model, plan.columns, given.format == "binary", rows, given.every.value_or(0),
+    using Kind = RowsAsked::Kind;
+    DriveRecord<M> record(plan.model, job.columns, rows, job.rows.kind == Kind::every ? job.rows.count : 0,
                           absolute_of(method));
-    Branches<M> branches(plan.model, plan.span.start, given.from_arrow);
-    const Status start = branches.begin(plan.initial, given.branch);
+    Branches<M> branches(plan.model, plan.span.start, job.from_arrow);
+    const Status start = branches.begin(plan.initial, job.branch);
     Options<M> options{.at = plan.times, .events = plan.events, .signal = signal};
-    if (given.max_steps) options.max_steps = *given.max_steps;
+    if (job.max_steps > 0) options.max_steps = job.max_steps;
 
     const auto begin = std::chrono::steady_clock::now();
     const auto run = start == Status::ok
@@ -317,10 +176,19 @@ std::string run_plan(DrivePlan<M>& plan, const Method& method, const DriveArgume
                          : no_run<M>(plan.initial, plan.span.start, start);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
     const bool ended_early = run.status() != Status::ok && run.steps > 0;
-    const bool fixed = given.at || !given.at_event.empty();
+    const bool fixed = job.rows.kind == Kind::at || job.rows.kind == Kind::event;
     if (ended_early && !fixed && record.last_time() != run.t) record.row(run.t, run.state);
-    status = run.status();
-    return report_text(plan, run, record, seconds.count(), branches.report(run));
+    RunReport report = report_of(job, plan, run);
+    report.seconds = seconds.count();
+    record.report(report);
+    branches.report(run, report);
+    return report;
+}
+
+inline int complain(const char* complaint, int code)
+{
+    std::fprintf(stderr, "error: %s\n", complaint);
+    return code;
 }
 
 } // namespace detail
@@ -330,27 +198,23 @@ template <class M, class Method>
 int drive(int argc, char** argv)
 try {
     static_assert(std::is_same_v<typename M::Scalar, double>, "lagen run integrates in double");
-    detail::DriveArguments given;
-    detail::DrivePlan<M> plan;
+    detail::RunJob job;
+    detail::RunPlan<M> plan;
     Method method{};
-    detail::Complaint complaint = detail::read_arguments(argc, argv, given);
-    if (complaint.empty()) complaint = detail::make_plan(given, plan, method);
-    if (!complaint.empty()) return detail::complain(complaint, complaint.ends_with("opened") ? 5 : 4);
+    if (argc != 3 || !detail::read_packed(argv[1], job) || !detail::make_plan(job, plan, method))
+        return detail::complain("a job for this model and the place of its report are required", 4);
 
     std::signal(SIGINT, detail::lagen_drive_interrupt);
     std::signal(SIGTERM, detail::lagen_drive_interrupt);
-    Status status = Status::ok;
-    const std::string report = detail::run_plan(
-        plan, method, given, [](std::string_view row) { std::fwrite(row.data(), 1, row.size(), stdout); },
-        &detail::drive_interrupted, status);
-    const bool rows_written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
-    if (!rows_written) return detail::complain("the rows could not be written to standard output", 5);
-    if (!detail::write_report(given.report, report))
-        return detail::complain("the report could not be written to \"" + given.report + "\"", 5);
-    if (status == Status::interrupted) return 130;
-    return is_success(status) ? 0 : 1;
+    const auto give = [](std::span<const double> row) { std::fwrite(row.data(), sizeof(double), row.size(), stdout); };
+    const detail::RunReport report = detail::run_plan(plan, method, job, give, &detail::drive_interrupted);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+        return detail::complain("the rows could not be written to standard output", 5);
+    if (!detail::write_bytes(argv[2], detail::packed(report)))
+        return detail::complain("the report could not be written", 5);
+    return report.status == to_text(Status::interrupted) ? 130 : 0;
 } catch (const std::exception& error) {
-    return detail::complain(std::string("the scene cannot be integrated: ") + error.what(), 5);
+    return detail::complain((std::string("the scene cannot be integrated: ") + error.what()).c_str(), 5);
 }
 
 } // namespace lagen

@@ -12,11 +12,10 @@
 #include "lagen/integrate/collocation.hpp"
 #include "lagen/kernel.hpp"
 #include "lagen_run/model_parts.hpp"
+#include "lagen_run/report.hpp"
 #include "lagen_run/slope.hpp"
-#include "lagen_run/text.hpp"
 
 #include <algorithm>
-#include <string>
 #include <vector>
 
 namespace lagen::detail {
@@ -68,31 +67,25 @@ class Figures {
             if (k + constraints_ < watched_ || k >= watched_) reference_[k] += after[k] - before[k];
     }
 
-    /// The lines of the report that driver.hpp describes.
-    [[nodiscard]] std::string report(const M& model) const
+    void report(const M& model, RunReport& report) const
     {
-        std::string text;
         std::size_t k = 0;
-        const auto put = [&](const std::string& key) {
+        const auto next = [&](const char* name) -> Drift {
             const Slope slope = means_.slope(k);
-            text += key + '=';
-            for (const double value : {initial_[k], most_[k], most_t_[k], slope.value, slope.error, size_[k]})
-                text += number_text(value) + ',';
-            text += number_text(moved_at_[k++]) + '\n';
+            const Drift drift{name,        initial_[k], most_[k], most_t_[k],
+                              slope.value, slope.error, size_[k], moved_at_[k]};
+            ++k;
+            return drift;
         };
-        if (follows_energy_) put(has_energy(model) ? "energy" : "hamiltonian");
+        if (follows_energy_) report.invariants.push_back(next(has_energy(model) ? "energy" : "hamiltonian"));
         if (balances_) {
-            if (sums_)
-                put("balance"), text += "work=" + number_text(work_) + '\n';
-            else
-                ++k;
+            if (const Drift balance = next("energy less work"); sums_)
+                report.balance.push_back(balance), report.work = work_;
         }
-        for (const char* name : invariants_of(model)) put(std::string("invariant:") + name);
-        for (const char* name : constraints_of(model)) put(std::string("constraint:") + name);
-        for (const char* name : casimirs_of(model)) put(std::string("casimir:") + name);
-        if (constraints_ > 0)
-            text += "manifold=" + number_text(distance_from_manifold(model)) + ',' + number_text(off_t_) + '\n';
-        return text;
+        for (const char* name : invariants_of(model)) report.invariants.push_back(next(name));
+        for (const char* name : constraints_of(model)) report.constraints.push_back(next(name));
+        for (const char* name : casimirs_of(model)) report.casimirs.push_back(next(name));
+        if (constraints_ > 0) report.manifold = distance_from_manifold(model), report.manifold_t = off_t_;
     }
 
   private:

@@ -5,12 +5,10 @@
 #pragma once
 
 #include "lagen/integrate.hpp"
-#include "lagen_run/arguments.hpp"
 #include "lagen_run/model_parts.hpp"
 
 #include <algorithm>
 #include <functional>
-#include <string>
 #include <vector>
 
 namespace lagen::detail {
@@ -20,19 +18,17 @@ struct HeldInputs {
     std::vector<double> values; ///< of one row after another
 };
 
-/// From rows of t and `count` inputs.
-inline Complaint plan_inputs(const std::vector<double>& numbers, std::size_t count, Interval<double> span,
-                             HeldInputs& inputs)
+/// From rows of t and `count` inputs; false where these are none, their times do not increase, or the run begins before
+/// the first.
+[[nodiscard]] inline bool plan_inputs(const std::vector<double>& numbers, std::size_t count, Interval<double> span,
+                                      HeldInputs& inputs)
 {
-    if (numbers.empty()) return {};
-    if (count == 0 || numbers.size() % (count + 1) != 0)
-        return "--inputs: rows of t and " + std::to_string(count) + " inputs are required";
+    if (numbers.empty()) return true;
+    if (count == 0 || numbers.size() % (count + 1) != 0) return false;
     for (std::size_t k = 0; k < numbers.size(); ++k)
         (k % (count + 1) == 0 ? inputs.times : inputs.values).push_back(numbers[k]);
-    if (std::ranges::adjacent_find(inputs.times, std::greater_equal<>()) != inputs.times.end())
-        return "--inputs: increasing times are required";
-    if (std::min(span.start, span.end) < inputs.times.front()) return "--inputs: the run begins before the first row";
-    return {};
+    return std::ranges::adjacent_find(inputs.times, std::greater_equal<>()) == inputs.times.end() &&
+           !(std::min(span.start, span.end) < inputs.times.front());
 }
 
 /// Adds what `next`, which began where `run` ended, counted and found.

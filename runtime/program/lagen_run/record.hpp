@@ -1,31 +1,48 @@
 // SPDX-License-Identifier: MIT
-/// What the program behind `lagen run` writes: rows while the run goes on, figures for the report at its end.
+/// The observer of a run: it gives rows while the run goes on, and follows what the report tells at its end.
 #pragma once
 
 #include "lagen/integrate/options.hpp"
 #include "lagen_run/figures.hpp"
+#include "lagen_run/job.hpp"
 #include "lagen_run/small_lanes.hpp"
 
-#include <cmath>
-#include <functional>
 #include <limits>
-#include <string>
-#include <string_view>
-#include <type_traits>
 #include <vector>
 
 namespace lagen::detail {
 
-/// A column: state lane or entry of observables().
-struct DriveColumn {
-    bool observable = false;
-    Eigen::Index index = 0;
+/// The value of a column, from the observables at (t, s).
+template <class M>
+class ColumnValues {
+  public:
+    explicit ColumnValues(const std::vector<DriveColumn>& columns)
+    {
+        for (const DriveColumn& column : columns) observes_ = observes_ || column.observable;
+    }
+
+    /// take(value) of every column.
+    template <class Take>
+    void each(const std::vector<DriveColumn>& columns, const M& model, double t, const typename M::State& s,
+              const Take& take) const
+    {
+        const auto lane = [&](const DriveColumn& column) { return s[static_cast<Eigen::Index>(column.index)]; };
+        if constexpr (requires { model.observables(t, s); }) {
+            if (observes_) {
+                const auto observables = model.observables(t, s);
+                for (const DriveColumn& column : columns)
+                    take(column.observable ? observables[static_cast<Eigen::Index>(column.index)] : lane(column));
+                return;
+            }
+        }
+        for (const DriveColumn& column : columns) take(lane(column));
+    }
+
+  private:
+    bool observes_ = false;
 };
 
-/// Takes the rows of a run, one after another.
-using RowSink = std::function<void(std::string_view)>;
-
-/// The observer of a run: row(t, s) writes, operator() follows what should be constant.
+/// row(t, s) gives a row, operator() follows what should be constant.
 template <class M>
 class DriveRecord {
   public:
@@ -33,11 +50,12 @@ class DriveRecord {
 
     /// `every`: rows at the start and behind every so many steps; 0 where row(t, s) is told of all of them.
     /// `absolute`: the tolerance of the method, or 0.
-    DriveRecord(const M& model, std::vector<DriveColumn> columns, bool binary, RowSink out, std::size_t every = 0,
+    DriveRecord(const M& model, std::vector<DriveColumn> columns, RowTaker out, std::size_t every = 0,
                 double absolute = 0)
-        : model_(model), columns_(std::move(columns)), binary_(binary), out_(std::move(out)), every_(every),
+        : model_(model), columns_(std::move(columns)), values_(columns_), out_(std::move(out)), every_(every),
           figures_(model), small_(absolute)
     {
+        line_.reserve(columns_.size() + 1);
     }
 
     void row(double t, const State& s)
@@ -45,18 +63,9 @@ class DriveRecord {
         // Rows and steps come in the order of time, so that what the model follows is continuous in the rows.
         model_.follow(t, s);
         last_time_ = t;
-        line_.clear();
-        write(t);
-        if constexpr (requires(const M& model) { model.observables(t, s); }) {
-            const auto observables = (*model_).observables(t, s);
-            for (const DriveColumn& column : columns_)
-                write(column.observable ? observables[column.index] : s[column.index]);
-        } else {
-            for (const DriveColumn& column : columns_) write(s[column.index]);
-        }
-        if (!binary_) line_.back() = '\n';
+        line_.assign(1, t);
+        values_.each(columns_, *model_, t, s, [this](double value) { line_.push_back(value); });
         out_(line_);
-        ++rows_;
     }
 
     /// Out of line: the loop over the steps is the faster for it.
@@ -86,40 +95,26 @@ class DriveRecord {
     /// From here on the run holds this input.
     void hold_input(std::size_t k, double value) { model_.hold_input(k, value); }
 
-    [[nodiscard]] std::size_t rows() const noexcept { return rows_; }
     /// Of the last row; NaN before the first.
     [[nodiscard]] double last_time() const noexcept { return last_time_; }
 
-    /// The lines of the report that this record knows.
-    [[nodiscard]] std::string report() const
+    /// Adds what this record knows.
+    void report(RunReport& report) const
     {
-        std::string text = figures_.report(*model_);
+        figures_.report(*model_, report);
         for (Eigen::Index i = 0; i < small_.size(); ++i)
-            if (small_.is_small(i)) text += "below=" + std::to_string(i) + ':' + number_text(small_.most(i)) + '\n';
-        return text;
+            if (small_.is_small(i)) report.below.push_back({static_cast<std::size_t>(i), small_.most(i)});
     }
 
   private:
-    /// A field and a comma; native doubles have none.
-    void write(double value)
-    {
-        if (binary_) {
-            line_.append(reinterpret_cast<const char*>(&value), sizeof value);
-            return;
-        }
-        append_number(line_, value);
-        line_ += ',';
-    }
-
     ObservedModel<M> model_;
     std::vector<DriveColumn> columns_;
-    bool binary_;
-    RowSink out_;
-    std::string line_;
+    ColumnValues<M> values_;
+    RowTaker out_;
+    std::vector<double> line_;
     std::size_t every_ = 0, seen_ = 0;
     Figures<M> figures_;
     SmallLanes<State> small_;
-    std::size_t rows_ = 0;
     double last_time_ = std::numeric_limits<double>::quiet_NaN();
 };
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-/// Numbers as the programs around headers write them.
+/// Numbers and rows as tables have them.
 #pragma once
 
 #include <charconv>
 #include <cmath>
+#include <cstddef>
+#include <span>
 #include <string>
 
 namespace lagen::detail {
@@ -15,10 +17,13 @@ inline std::string number_text(double value)
     return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
-/// The same as a field: nothing for what is no finite number.
-inline void append_number(std::string& line, double value)
+/// Fields with commas between them; nothing stands for what is no finite number.
+inline void append_fields(std::string& line, std::span<const double> values)
 {
-    if (std::isfinite(value)) line += number_text(value);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        if (k > 0) line += ',';
+        if (std::isfinite(values[k])) line += number_text(values[k]);
+    }
 }
 
 } // namespace lagen::detail

@@ -5,11 +5,8 @@
 ///   #include "lagen_sweep/driver.hpp"
 ///   int main(int argc, char** argv) { return lagen::sweep<lagen::models::NAME<double>, lagen::METHOD>(argc, argv); }
 ///
-/// Arguments, each followed by its value; --columns, --events, --at-event and --samples mean what they mean to the
-/// program of `lagen run` (lagen_run/driver.hpp):
-///   --threads N           0: as many as the machine gives this process
-///   --rows count|interval|at   where the rows of a trajectory are: --samples of them, an interval of its own apart, or
-///                         at --times K times of its own
+/// Its argument is the file of a SweepJob (lagen_run/archive.hpp). Rows of a trajectory are at a number of even times,
+/// an interval of its own apart, at times of its own, as many as the job has, or at an event.
 ///
 /// Standard input holds native doubles, for each trajectory
 ///   failure, parameters.., state lanes.., start, end, step, relative, absolute, interval, times..
@@ -26,6 +23,8 @@
 #include "lagen/ensemble/in_order.hpp"
 #include "lagen/lanes/abreast.hpp"
 #include "lagen_run/driver.hpp"
+#include "lagen_run/text.hpp"
+#include "lagen_sweep/job.hpp"
 #include "lagen_sweep/record.hpp"
 
 #include <algorithm>
@@ -38,34 +37,6 @@ namespace lagen {
 
 namespace detail {
 
-struct SweepArguments {
-    DriveArguments run;
-    std::size_t threads = 0, times = 0;
-    std::string rows = "count";
-};
-
-inline Complaint read_sweep_arguments(int argc, char** argv, SweepArguments& into)
-{
-    for (int i = 1; i < argc; i += 2) {
-        const std::string key = argv[i];
-        if (i + 1 >= argc) return key + ": a value is required";
-        const std::string text = argv[i + 1];
-        Complaint complaint;
-        if (key == "--threads" || key == "--times") {
-            const auto count = read_count(text);
-            if (!count) return key + ": \"" + text + "\" is not a count";
-            (key == "--threads" ? into.threads : into.times) = *count;
-        } else if (key == "--rows") {
-            into.rows = text;
-            if (text != "count" && text != "interval" && text != "at")
-                return "--rows: \"" + text + "\" is neither count, interval nor at";
-        } else if (complaint = read_argument(key, text, into.run); !complaint.empty()) {
-            return complaint;
-        }
-    }
-    return {};
-}
-
 /// Trajectories that are read together, and their lines, which are written together.
 struct SweepBlock {
     std::vector<double> numbers;
@@ -76,11 +47,10 @@ struct SweepBlock {
 template <class M, class Method>
 class Sweep {
   public:
-    Sweep(const SweepArguments& given, const DrivePlan<M>& plan) : given_(given), plan_(plan)
+    explicit Sweep(const SweepJob& job) : job_(job), starts_on_(job.run.events.size())
     {
         if constexpr (HasParameters<M>) parameters_ = M::parameter_names.size();
-        starts_on_ = std::vector<std::atomic<std::size_t>>(plan.events.size());
-        length_ = 1 + parameters_ + static_cast<std::size_t>(M::dimension) + 6 + given.times;
+        length_ = 1 + parameters_ + static_cast<std::size_t>(M::dimension) + 6 + job.run.rows.at.size();
     }
 
     int run()
@@ -93,7 +63,7 @@ class Sweep {
             if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
                 cut_ = true;
         };
-        const std::size_t threads = thread_count(given_.threads), slots = slots_a_thread(1);
+        const std::size_t threads = thread_count(job_.threads), slots = slots_a_thread(1);
         InOrder<SweepBlock, decltype(begin), decltype(work), decltype(deliver)> pieces(slots * threads, begin, work,
                                                                                        deliver);
         pieces.run(threads);
@@ -108,7 +78,7 @@ class Sweep {
         for (std::size_t k = 0; k < starts_on_.size(); ++k)
             if (const std::size_t count = starts_on_[k]; count > 0)
                 std::fprintf(stderr, "note: %zu row%s on event '%s', or beyond it, and it does not happen there\n",
-                             count, count == 1 ? " starts" : "s start", plan_.event_names[k].c_str());
+                             count, count == 1 ? " starts" : "s start", job_.run.events[k].name.c_str());
     }
 
     /// As many trajectories as take about a millisecond: finished ones are written soon, short ones cost no locks.
@@ -129,11 +99,9 @@ class Sweep {
 
     /// A trajectory that is integrated, and what its march asks for.
     struct Row {
-        explicit Row(const DrivePlan<M>& common) : plan(common) {}
-
         SweepBlock* block = nullptr;
         std::size_t index = 0;
-        DrivePlan<M> plan;
+        RunPlan<M> plan;
         Method method{};
         Options<M> options;
         std::optional<SweepRecord<M>> record;
@@ -143,7 +111,7 @@ class Sweep {
     template <class Source>
     class Rows {
       public:
-        Rows(const Sweep& sweep, Source& source) : sweep_(sweep), source_(source), given_(sweep.given_.run) {}
+        Rows(const Sweep& sweep, Source& source) : sweep_(sweep), source_(source), job_(sweep.job_.run) {}
 
         /// Sets `row` to the next one that there is something to integrate of; false where there is none now.
         bool next(Row& row)
@@ -165,10 +133,9 @@ class Sweep {
                     done(row, '#' + std::to_string(static_cast<int>(failure)) + '\n');
                     continue;
                 }
-                const bool usable = sweep_.use(from, given_, row.plan, row.method);
-                (void)plan_crossings(given_, row.plan);
+                const bool usable = sweep_.use(from, job_, row.plan, row.method);
                 row.options = {.at = row.plan.times, .events = row.plan.events};
-                row.record.emplace(row.plan.model, row.plan.columns, absolute_of(row.method));
+                row.record.emplace(row.plan.model, job_.columns, absolute_of(row.method));
                 if (usable) return true;
                 Run<M> run;
                 run.outcome = Status::invalid_input;
@@ -195,7 +162,7 @@ class Sweep {
 
         const Sweep& sweep_;
         Source& source_;
-        DriveArguments given_;
+        RunJob job_;                 ///< of a row
         SweepBlock* open_ = nullptr; ///< the block that is being begun
         std::size_t unfinished_ = 0;
         std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
@@ -207,7 +174,7 @@ class Sweep {
         Rows<Source> rows(*this, source);
         if constexpr (GoesAbreast<M, Method>) {
             constexpr int lanes = abreast_lanes<double>;
-            std::vector<Row> each(static_cast<std::size_t>(lanes), Row(plan_));
+            std::vector<Row> each(static_cast<std::size_t>(lanes));
             std::array<Trajectory<M, Method, SweepRecord<M>>, static_cast<std::size_t>(lanes)> given;
             const auto next = [&](int lane) -> const Trajectory<M, Method, SweepRecord<M>>* {
                 Row& row = each[static_cast<std::size_t>(lane)];
@@ -221,7 +188,7 @@ class Sweep {
             };
             Abreast<M, Method, lanes, SweepRecord<M>>().run(next, done);
         } else {
-            for (Row row(plan_); rows.next(row);)
+            for (Row row; rows.next(row);)
                 rows.done(row, integrate(row.plan.model, row.plan.initial, row.plan.span, row.method, row.options,
                                          *row.record));
         }
@@ -234,60 +201,46 @@ class Sweep {
         const auto& small = record.small_lanes();
         for (Eigen::Index i = 0; i < small.size(); ++i)
             if (small.is_small(i)) line += '<' + std::to_string(i) + '>';
-        append_number(line, run.t);
-        for (const double value : record.values()) append_field(line, value);
+        std::vector<double> numbers{run.t};
+        numbers.insert(numbers.end(), record.values().begin(), record.values().end());
+        append_fields(line, numbers);
         append_events(line, run);
         for (std::size_t k = 0; k < record.values().size(); ++k) {
-            append_field(line, record.least()[k]);
-            append_field(line, record.most()[k]);
+            line += ',';
+            append_fields(line, std::array{record.least()[k], record.most()[k]});
         }
         return line + ',' + to_text(run.status()) + '\n';
     }
 
     /// What the numbers of a trajectory say; false where they make no sense.
-    bool use(const double* from, DriveArguments& given, DrivePlan<M>& plan, Method& method) const
+    bool use(const double* from, RunJob& job, RunPlan<M>& plan, Method& method) const
     {
         const auto take = [&from](std::size_t count) {
             const double* begin = from;
             from += count;
             return std::vector<double>(begin, from);
         };
-        given.parameters = take(parameters_);
-        given.initial = take(static_cast<std::size_t>(M::dimension));
-        given.start = *from++;
-        given.end = *from++;
-        given.step = *from++;
-        given.relative = *from++;
-        given.absolute = *from++;
-        given.interval = *from++;
-        if (given_.rows != "interval") given.interval.reset();
-        Complaint complaint = plan_values(given, plan);
-        if (complaint.empty()) complaint = plan_times(given, plan);
-        if (given_.rows == "at") plan.times = take(given_.times);
-        if (complaint.empty()) complaint = plan_method<M>(given, method);
-        return complaint.empty();
-    }
-
-    static void append_field(std::string& lines, double value)
-    {
-        lines += ',';
-        append_number(lines, value);
+        job.parameters = take(parameters_);
+        job.initial = take(static_cast<std::size_t>(M::dimension));
+        for (double* const number : {&job.start, &job.end, &job.step, &job.relative, &job.absolute, &job.rows.interval})
+            *number = *from++;
+        job.rows.at = take(job.rows.at.size());
+        return plan_events(job, plan) && plan_values(job, plan) && plan_method<M>(job, method);
     }
 
     void append_events(std::string& lines, const Run<M>& run) const
     {
-        for (std::size_t request = 0; request < plan_.events.size(); ++request) {
+        for (std::size_t request = 0; request < job_.run.events.size(); ++request) {
             std::size_t count = 0;
             double last = std::numeric_limits<double>::quiet_NaN();
             for (const auto& found : run.events)
                 if (found.request == request) ++count, last = found.t;
-            lines += ',' + std::to_string(count);
-            append_field(lines, last);
+            lines += ',' + std::to_string(count) + ',';
+            append_fields(lines, std::array{last});
         }
     }
 
-    const SweepArguments& given_;
-    const DrivePlan<M>& plan_;
+    const SweepJob& job_;
     std::size_t parameters_ = 0, length_ = 0;
     mutable std::vector<std::atomic<std::size_t>> starts_on_; ///< of each event, how many trajectories start on it
     mutable std::atomic<double> seconds_ = 1;                 ///< of a trajectory of the last block
@@ -301,17 +254,13 @@ template <class M, class Method>
 int sweep(int argc, char** argv)
 try {
     static_assert(std::is_same_v<typename M::Scalar, double>, "lagen sweep integrates in double");
-    detail::SweepArguments given;
-    detail::DrivePlan<M> plan;
-    detail::Complaint complaint = detail::read_sweep_arguments(argc, argv, given);
-    if (complaint.empty()) complaint = detail::plan_columns(given.run, plan);
-    for (const std::string& event : detail::split(given.run.events, ','))
-        if (complaint.empty()) complaint = detail::plan_event(event, plan);
-    if (complaint.empty()) complaint = detail::plan_crossings(given.run, plan);
-    if (!complaint.empty()) return detail::complain(complaint, 4);
-    return detail::Sweep<M, Method>(given, plan).run();
+    detail::SweepJob job;
+    if (argc != 2 || !detail::read_packed(argv[1], job)) return detail::complain("a job is required", 4);
+    if (detail::RunPlan<M> plan; !detail::plan_columns(job.run, plan.model) || !detail::plan_events(job.run, plan))
+        return detail::complain("a job for this model is required", 4);
+    return detail::Sweep<M, Method>(job).run();
 } catch (const std::exception& error) {
-    return detail::complain(std::string("the trajectories cannot be integrated: ") + error.what(), 5);
+    return detail::complain((std::string("the trajectories cannot be integrated: ") + error.what()).c_str(), 5);
 }
 
 } // namespace lagen

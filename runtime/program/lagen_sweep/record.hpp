@@ -4,6 +4,7 @@
 
 #include "lagen_run/record.hpp"
 
+#include <cmath>
 #include <limits>
 
 namespace lagen::detail {
@@ -16,26 +17,26 @@ class SweepRecord {
 
     /// `absolute`: the tolerance of the method, or 0.
     SweepRecord(const M& model, const std::vector<DriveColumn>& columns, double absolute = 0)
-        : model_(model), columns_(columns), values_(columns.size(), nothing), least_(values_), most_(values_),
-          small_(absolute)
+        : model_(model), columns_(columns), columns_of_(columns), values_(columns.size(), nothing), least_(values_),
+          most_(values_), small_(absolute)
     {
-        for (const DriveColumn& column : columns) observes_ = observes_ || column.observable;
     }
 
-    void row(double t, const State& s) { (*this)(t, s); }
     void operator()(double t, const State& s)
     {
+        small_.see(s); // at accepted steps, as a run does: a row inside a long step is its polynomial's
+        row(t, s);
+    }
+    void row(double t, const State& s)
+    {
         model_.follow(t, s);
-        small_.see(s);
-        if constexpr (requires(const M& model) { model.observables(t, s); }) {
-            if (observes_) {
-                const auto observables = (*model_).observables(t, s);
-                return see([&](const DriveColumn& column) {
-                    return column.observable ? observables[column.index] : s[column.index];
-                });
-            }
-        }
-        see([&](const DriveColumn& column) { return s[column.index]; });
+        std::size_t k = 0;
+        columns_of_.each(columns_, *model_, t, s, [&](double x) {
+            values_[k] = x;
+            if (x < least_[k] || std::isnan(least_[k])) least_[k] = x;
+            if (x > most_[k] || std::isnan(most_[k])) most_[k] = x;
+            ++k;
+        });
     }
 
     /// At the last step; NaN where there was none.
@@ -47,19 +48,9 @@ class SweepRecord {
   private:
     static constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-    template <class Value>
-    void see(const Value& value)
-    {
-        for (std::size_t k = 0; k < columns_.size(); ++k) {
-            const double x = values_[k] = value(columns_[k]);
-            if (x < least_[k] || std::isnan(least_[k])) least_[k] = x;
-            if (x > most_[k] || std::isnan(most_[k])) most_[k] = x;
-        }
-    }
-
     ObservedModel<M> model_;
     const std::vector<DriveColumn>& columns_;
-    bool observes_ = false;
+    ColumnValues<M> columns_of_;
     std::vector<double> values_, least_, most_;
     SmallLanes<State> small_;
 };
