@@ -45,11 +45,8 @@ Answer sweep_with(const detail::SweepJob& job, const std::vector<double>& number
     const fs::path folder = fs::temp_directory_path() / ("lagen_sweep_test_" + std::to_string(getpid()));
     fs::create_directories(folder);
     std::ofstream(folder / "in", std::ios::binary)
-        .write(reinterpret_cast<const char*>(numbers.data()),
-               static_cast<std::streamsize>(numbers.size() * sizeof(double) - cut));
-    std::string arguments[] = {"sweep", (folder / "job").string()};
-    char* pointers[] = {arguments[0].data(), arguments[1].data()};
-    REQUIRE(detail::write_bytes(pointers[1], detail::packed(job)));
+        << detail::packed(detail::packed(job))
+        << std::string_view(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double) - cut);
     const auto redirect = [&](std::FILE* stream, const char* name, const char* mode) {
         std::fflush(stream);
         const int kept = dup(fileno(stream));
@@ -65,7 +62,7 @@ Answer sweep_with(const detail::SweepJob& job, const std::vector<double>& number
         std::clearerr(stream);
     };
     const int in = redirect(stdin, "in", "r"), out = redirect(stdout, "out", "w"), err = redirect(stderr, "err", "w");
-    const int code = sweep<M, Method>(2, pointers);
+    const int code = sweep<M, Method>();
     restore(stdin, in);
     restore(stdout, out);
     restore(stderr, err);

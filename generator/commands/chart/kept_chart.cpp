@@ -3,13 +3,12 @@
 
 #include "commands/machine/compile_cache.hpp"
 #include "commands/scene/run_record.hpp"
-#include "lagen_run/archive.hpp"
 
 namespace lagen {
 
 namespace {
 
-constexpr std::string_view chart_heading = "what `lagen chart` measured, packed\n";
+constexpr std::string_view chart_heading = "what `lagen chart` measured\n";
 
 } // namespace
 
@@ -37,17 +36,12 @@ KeptChart kept_chart(const Chart& chart)
 
 std::optional<KeptChart> find_chart(const std::string& file)
 {
-    const std::optional<std::string> text = kept_text(file);
-    if (!text || !text->starts_with(chart_heading)) return std::nullopt;
-    std::string_view bytes = *text;
-    bytes.remove_prefix(chart_heading.size());
-    KeptChart chart;
-    return detail::take_packed(bytes, chart) && bytes.empty() ? std::optional(std::move(chart)) : std::nullopt;
+    return kept<KeptChart>(file, chart_heading);
 }
 
 void keep_chart(const std::string& file, const KeptChart& chart)
 {
-    if (!file.empty()) keep_text(file, std::string(chart_heading) + detail::packed(chart));
+    keep(file, chart_heading, chart);
 }
 
 } // namespace lagen

@@ -83,13 +83,6 @@ void sample_evenly(ChartProblem& problem, std::size_t count)
     problem.times.push_back(problem.end);
 }
 
-std::string blank_list(const std::vector<double>& numbers)
-{
-    std::string text;
-    for (const double number : numbers) text += fmt::format(" {:.17g}", number);
-    return text;
-}
-
 chart::Request request_of(const ChartProblem& problem)
 {
     chart::Request request;

@@ -26,9 +26,6 @@ struct ChartProblem {
 /// `count` even times from the start to the end of the problem.
 void sample_evenly(ChartProblem& problem, std::size_t count);
 
-/// Numbers with a blank before each, to be read back as they are.
-[[nodiscard]] std::string blank_list(const std::vector<double>& numbers);
-
 /// What every program is asked for.
 [[nodiscard]] chart::Request request_of(const ChartProblem& problem);
 

@@ -4,8 +4,10 @@
 #include "commands/chart/contestants.hpp"
 #include "commands/chart/problem.hpp"
 #include "commands/chart/stability_discrete.hpp"
+#include "commands/scene/scene_options.hpp"
 #include "commands/scene/start_state.hpp"
 #include "emit/print_header.hpp"
+#include "lagen_run/archive.hpp"
 #include "model/scene_form.hpp"
 #include "scene/sample_times.hpp"
 #include "stability/scheme_limits.hpp"
@@ -15,7 +17,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <sstream>
 #include <thread>
 #include <tuple>
 
@@ -38,18 +39,20 @@ Scene stepped_scene(const Scene& scene, const std::vector<StabilityAxis>& axes, 
     return stepped;
 }
 
-/// What a run of the equations keeps: the line of the request, and its name.
-std::pair<std::string, std::string> followed_of(const KernelModule& module)
+/// What a run of the equations keeps, into the request; its name.
+std::string follow(const KernelModule& module, chart::StabilityRequest& request)
 {
-    if (!has_kernel(module, "power")) {
-        if (has_kernel(module, "energy")) return {"energy 0", "energy"};
-        if (has_kernel(module, "hamiltonian")) return {"energy 0", "hamiltonian"};
-    }
-    if (has_kernel(module, "invariants")) {
-        const std::vector<std::string>& names = kernel_named(module, "invariants").outputs[0].entry_names;
-        if (!names.empty()) return {"invariant 0", "invariant " + names[0]};
-    }
-    return {"size 0", ""};
+    if (!has_kernel(module, "power"))
+        for (const char* kept : {"energy", "hamiltonian"})
+            if (has_kernel(module, kept)) {
+                request.follow = chart::Follow::energy;
+                return kept;
+            }
+    if (!has_kernel(module, "invariants")) return "";
+    const std::vector<std::string>& names = kernel_named(module, "invariants").outputs[0].entry_names;
+    if (names.empty()) return "";
+    request.follow = chart::Follow::invariant;
+    return "invariant " + names[0];
 }
 
 /// Methods of one program.
@@ -96,12 +99,13 @@ ProgramText program_of(const ChartProblem& problem, const MethodGroup& methods)
     return text;
 }
 
-/// The start of every column, a line each.
-std::string column_lines(CheckedModel& checked, const Scene& scene, const StabilityChart& chart, ChartProblem& problem)
+/// The start of every column.
+std::vector<chart::ColumnStart> column_starts(CheckedModel& checked, const Scene& scene, const StabilityChart& chart,
+                                              ChartProblem& problem)
 {
     StartState start([&](bool) -> const CheckedModel& { return checked; }, chart.form);
     SceneEvaluator evaluate(checked.model, scene);
-    std::string text;
+    std::vector<chart::ColumnStart> starts;
     const std::vector<double> alone{0};
     for (const double value : chart.axes.size() > 1 ? chart.axes[1].values : alone) {
         Values parameters, initial;
@@ -120,31 +124,18 @@ std::string column_lines(CheckedModel& checked, const Scene& scene, const Stabil
         const SampleTimes times = sample_times(scene, values, lanes.size() + 1, true);
         problem.start = static_cast<double>(times.start);
         problem.end = static_cast<double>(times.end);
-        text += fmt::format("column{} |{}\n", blank_list(problem.parameters), blank_list(problem.initial));
+        starts.push_back({problem.parameters, problem.initial});
     }
-    return text;
+    return starts;
 }
 
-/// Reads what a program printed behind what the others did.
-void take_answer(const std::string& answer, StabilityChart& chart)
+/// Adds what a program answered to what the others did.
+void take_answer(std::string_view answer, StabilityChart& chart)
 {
-    std::istringstream lines(answer);
-    std::vector<ColumnFigures> columns;
-    for (std::string line; std::getline(lines, line);) {
-        std::istringstream words(line);
-        std::string word, second, third, fourth, fifth;
-        words >> word >> second >> third >> fourth >> fifth;
-        const auto number = [](const std::string& text) { return std::strtod(text.c_str(), nullptr); };
-        if (word == "column")
-            columns.push_back({number(second), number(third), number(fourth)});
-        else if (word == "method")
-            chart.methods.push_back({second, {}, {}, {}});
-        else if (word == "fold")
-            chart.methods.back().folds.push_back(number(second));
-        else
-            chart.methods.back().cells.push_back({word, number(second), number(third), number(fourth), fifth});
-    }
-    chart.columns = std::move(columns);
+    chart::StabilityAnswer found;
+    if (!detail::take_packed(answer, found)) throw InternalError("a program of a chart gave another answer");
+    chart.columns = std::move(found.columns);
+    for (chart::MethodFates& method : found.methods) chart.methods.push_back({std::move(method)});
 }
 
 /// Of x'' = -omega^2 x; the flows of a sum of flows are others.
@@ -182,10 +173,11 @@ std::size_t processors()
 class CurvePart {
   public:
     CurvePart(CheckedModel& checked, const Scene& scene, StabilityChart& chart)
-        : columns_(column_lines(checked, scene, chart, problem_))
     {
-        chart.start = problem_.start;
-        chart.end = problem_.end;
+        request_.starts = column_starts(checked, scene, chart, problem_);
+        request_.steps = chart.axes[0].values;
+        chart.start = request_.start = problem_.start;
+        chart.end = request_.end = problem_.end;
         GenerateRequest kernels;
         kernels.form = chart.form;
         kernels.scene = &scene;
@@ -193,7 +185,7 @@ class CurvePart {
         Generated generated = generate(checked, kernels);
         problem_.header = std::move(generated.header);
         problem_.module = std::move(generated.module);
-        std::tie(follow_, chart.followed) = followed_of(problem_.module);
+        chart.followed = follow(problem_.module, request_);
     }
 
     [[nodiscard]] const ChartProblem& problem() const { return problem_; }
@@ -203,30 +195,28 @@ class CurvePart {
     {
         std::vector<ProgramText> texts;
         for (const MethodGroup& methods : groups) texts.push_back(program_of(problem_, methods));
-        const std::string whole = fmt::format("span {:.17g} {:.17g}\nfollow {}\nsteps{}\n{}", chart.start, chart.end,
-                                              follow_, blank_list(chart.axes[0].values), columns_);
         std::vector<ChartCall> calls;
-        for (const std::string& program : compile_programs(texts)) calls.push_back({program, whole});
+        for (const std::string& program : compile_programs(texts)) calls.push_back({program, detail::packed(request_)});
         for (const std::string& answer : answers_of(calls, processors())) take_answer(answer, chart);
     }
 
   private:
     ChartProblem problem_;
-    std::string columns_, follow_;
+    chart::StabilityRequest request_;
 };
 
 /// Runs them, with the figures of the columns where they are known.
 void run_contestants(const std::vector<DiscreteContestant>& contestants, StabilityChart& chart)
 {
-    std::string figures;
-    for (const ColumnFigures& column : chart.columns)
-        figures += fmt::format("figures {:.17g} {:.17g} {:.17g}\n", column.omega, column.scale, column.reached);
     std::vector<ProgramText> texts;
     for (const DiscreteContestant& contestant : contestants) texts.push_back(contestant.text);
     const std::vector<std::string> programs = compile_programs(texts);
     std::vector<ChartCall> calls;
-    for (std::size_t k = 0; k < contestants.size(); ++k)
-        calls.push_back({programs[k], contestants[k].request + figures});
+    for (std::size_t k = 0; k < contestants.size(); ++k) {
+        chart::StabilityRequest request = contestants[k].request;
+        request.figures = chart.columns;
+        calls.push_back({programs[k], detail::packed(request)});
+    }
     const std::vector<std::string> answers = answers_of(calls, processors());
     for (std::size_t k = 0; k < contestants.size(); ++k) {
         take_answer(answers[k], chart);

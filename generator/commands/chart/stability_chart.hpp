@@ -5,28 +5,16 @@
 
 #include "commands/chart/chart.hpp"
 #include "commands/chart/stability_axes.hpp"
+#include "lagen_chart/stability_request.hpp"
 
 namespace lagen {
 
-struct StabilityCell {
-    std::string outcome; ///< bounded, drifting, newton_diverged, blown_up or left_domain
-    double t = 0;        ///< where it ended
-    double error = 0, drift = 0;
-    std::string status = "ok"; ///< of the run
-};
+using chart::ColumnFigures;
+using chart::StabilityCell;
 
-struct ChartedMethod {
-    std::string name;
-    std::vector<StabilityCell> cells; ///< those of the first column first
+struct ChartedMethod : chart::MethodFates {
     /// The step at which h omega is the end of the method's interval, a column each; nothing where it has none.
-    std::vector<std::optional<double>> limits;
-    /// Of discrete motions: the step from which on the momenta of the start have no arrow, 0 where none is met.
-    std::vector<double> folds = {};
-};
-
-/// Along the motion of a column, as far as the scene goes.
-struct ColumnFigures {
-    double omega = 0, scale = 0, reached = 0;
+    std::vector<std::optional<double>> limits{};
 };
 
 struct StabilityChart {

@@ -18,23 +18,29 @@ namespace lagen {
 
 namespace {
 
-/// The line of the request for what is followed, and its name.
-std::pair<std::string, std::string> followed_in_steps(const CheckedModel& checked, const KernelModule& module,
-                                                      const std::optional<std::string>& wanted)
+/// What is followed, into the request; its name.
+std::string follow_in_steps(const CheckedModel& checked, const KernelModule& module,
+                            const std::optional<std::string>& wanted, chart::StabilityRequest& request)
 {
     const bool energy = has_kernel(module, "energy") && keeps_energy(checked.system);
-    if (energy && (!wanted || *wanted == "energy" || *wanted == "hamiltonian")) return {"energy 0", "energy"};
-    if (wanted && wanted->empty()) return {"size 0", ""};
+    if (energy && (!wanted || *wanted == "energy" || *wanted == "hamiltonian")) {
+        request.follow = chart::Follow::energy;
+        return "energy";
+    }
+    if (wanted && wanted->empty()) return "";
     if (has_kernel(module, "invariants")) {
         const std::vector<std::string>& names = kernel_named(module, "invariants").outputs[0].entry_names;
         for (std::size_t k = 0; k < names.size(); ++k)
-            if (!wanted || *wanted == "invariant " + names[k])
-                return {fmt::format("invariant {}", k), "invariant " + names[k]};
+            if (!wanted || *wanted == "invariant " + names[k]) {
+                request.follow = chart::Follow::invariant;
+                request.invariant = k;
+                return "invariant " + names[k];
+            }
     }
     if (wanted)
         throw MathematicsError(
             fmt::format("the discrete form of model '{}' has no {} to follow", module.model, *wanted));
-    return {"size 0", ""};
+    return "";
 }
 
 /// The number of the parameter that is the step; behind those of the model where it is none of them.
@@ -50,26 +56,26 @@ std::vector<double> as_doubles(const std::vector<long double>& values)
     return {values.begin(), values.end()};
 }
 
-/// A line for every step of every column.
-class CellLines {
+/// A start for every step of every column.
+class CellStarts {
   public:
-    CellLines(CheckedModel& checked, const Scene& scene, const StabilityChart& chart)
+    CellStarts(CheckedModel& checked, const Scene& scene, const StabilityChart& chart)
         : model_(checked.model), scene_(scene), chart_(chart),
           start_([&checked](bool) -> const CheckedModel& { return checked; }, scene.form), evaluate_(model_, scene)
     {
     }
 
-    [[nodiscard]] std::string text()
+    [[nodiscard]] std::vector<chart::ColumnStart> all()
     {
-        std::string text;
+        std::vector<chart::ColumnStart> starts;
         const std::vector<double> alone{0};
         for (const double value : chart_.axes.size() > 1 ? chart_.axes[1].values : alone)
-            for (const double step : chart_.axes[0].values) text += line(step, value);
-        return text;
+            for (const double step : chart_.axes[0].values) starts.push_back(start_of(step, value));
+        return starts;
     }
 
   private:
-    [[nodiscard]] std::string line(double step, double value)
+    [[nodiscard]] chart::ColumnStart start_of(double step, double value)
     {
         Values parameters, initial;
         if (chart_.axes.size() > 1) {
@@ -86,7 +92,7 @@ class CellLines {
             (void)finite_numbers(*group, scene_);
         std::vector<double> numbers = as_doubles(finite_numbers(values.parameters, scene_));
         if (own) numbers.push_back(step);
-        return fmt::format("cell{} |{}\n", blank_list(numbers), blank_list(as_doubles(start_(values))));
+        return {std::move(numbers), as_doubles(start_(values))};
     }
 
     const Model& model_;
@@ -125,12 +131,12 @@ DiscreteContestant discrete_contestant(CheckedModel& checked, const MethodEntry&
     DiscreteContestant contestant;
     contestant.method = &method;
     contestant.scheme = checked.model.discrete->scheme;
-    const auto [follow, name] = followed_in_steps(checked, generated.module, followed);
-    contestant.followed = name;
-    contestant.request =
-        fmt::format("span {:.17g} {:.17g}\nfollow {}\nstep {}\ncolumns {}\n", chart.start, chart.end, follow,
-                    step_number(checked.model), chart.axes.size() > 1 ? chart.axes[1].values.size() : 1) +
-        CellLines(checked, own, chart).text();
+    contestant.request.start = chart.start;
+    contestant.request.end = chart.end;
+    contestant.request.steps = chart.axes[0].values;
+    contestant.request.step = step_number(checked.model);
+    contestant.request.starts = CellStarts(checked, own, chart).all();
+    contestant.followed = follow_in_steps(checked, generated.module, followed, contestant.request);
     contestant.text = stepping_program(generated, method.name);
     contestant.module = std::move(generated.module);
     return contestant;

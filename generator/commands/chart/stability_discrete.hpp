@@ -17,8 +17,8 @@ struct DiscreteContestant {
     std::string scheme; ///< that made the discrete Lagrangian; empty: it is written out
     KernelModule module;
     ProgramText text;
-    std::string request;  ///< without the figures of the columns
-    std::string followed; ///< as in StabilityChart
+    chart::StabilityRequest request; ///< without the figures of the columns
+    std::string followed;            ///< as in StabilityChart
 };
 
 /// The scene in its discrete form by `method`, for every step and column of `chart`, which has its axes, start and end.

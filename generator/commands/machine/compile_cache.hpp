@@ -4,8 +4,11 @@
 /// not read: what was cut off, or is something else, is made again.
 #pragma once
 
+#include "lagen_run/archive.hpp"
+
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace lagen {
 
@@ -26,5 +29,23 @@ void keep_program(const std::string& made, const std::string& kept);
 /// Removes the files used longest ago until at most 200 of them with at most 1 GiB are left, and what compilations
 /// that were killed have left for more than a day. Files with other names are not touched; failures are ignored.
 void trim_cache(const std::string& folder);
+
+/// A structure (lagen_run/archive.hpp) under its heading, which says what it is. Nothing is kept where `file` is empty.
+template <class T>
+void keep(const std::string& file, std::string_view heading, const T& value)
+{
+    if (!file.empty()) keep_text(file, std::string(heading) + detail::packed(value));
+}
+
+/// Nothing where there is none in this file.
+template <class T>
+[[nodiscard]] std::optional<T> kept(const std::string& file, std::string_view heading)
+{
+    const std::optional<std::string> text = kept_text(file);
+    if (!text || !text->starts_with(heading)) return std::nullopt;
+    std::string_view bytes = std::string_view(*text).substr(heading.size());
+    T value;
+    return detail::take_packed(bytes, value) && bytes.empty() ? std::optional(std::move(value)) : std::nullopt;
+}
 
 } // namespace lagen

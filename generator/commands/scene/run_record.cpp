@@ -13,9 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <sstream>
 
 namespace lagen {
 
@@ -35,54 +33,7 @@ std::string line_of(const System& system, const Regularity& known)
     return line;
 }
 
-/// The lists of a record, by the key of their lines.
-template <typename Record, typename Visit>
-void visit_lists(Record& record, Visit visit)
-{
-    visit("warning", record.warnings);
-    visit("lane", record.names.lanes);
-    visit("observable", record.names.observables);
-    visit("state", record.names.states);
-    visit("proved_for", record.proved_for);
-}
-
-constexpr const char* first_line = "what `lagen run` proved and compiled\n";
-
-/// A line KEY=VALUE for each part.
-std::string text_of(const RunRecord& record)
-{
-    std::string text = first_line;
-    const auto put = [&](const char* key, const std::string& value) { text += fmt::format("{}={}\n", key, value); };
-    put("program", record.program);
-    visit_lists(record, [&](const char* key, const std::vector<std::string>& list) {
-        for (const std::string& entry : list) put(key, entry);
-    });
-    if (record.energy_changes) put("energy_changes", "");
-    if (record.searches) put("searches", "");
-    put("regularity", record.regularity);
-    for (const long double value : record.decided_for) put("decided_for", fmt::format("{:.21g}", value));
-    return text;
-}
-
-RunRecord read_record(const std::string& text)
-{
-    RunRecord record;
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);) {
-        const std::size_t equals = line.find('=');
-        if (equals == std::string::npos) continue;
-        const std::string key = line.substr(0, equals), value = line.substr(equals + 1);
-        if (key == "program") record.program = value;
-        if (key == "energy_changes") record.energy_changes = true;
-        if (key == "searches") record.searches = true;
-        if (key == "regularity") record.regularity = value;
-        if (key == "decided_for") record.decided_for.push_back(std::strtold(value.c_str(), nullptr));
-        visit_lists(record, [&](const char* name, std::vector<std::string>& list) {
-            if (key == name) list.push_back(value);
-        });
-    }
-    return record;
-}
+constexpr std::string_view first_line = "what `lagen run` proved and compiled\n";
 
 /// The program that runs: its place, size and time.
 void add_lagen(ContentHash& hash)
@@ -121,7 +72,7 @@ void add_model(ContentHash& hash, const Model& model)
 std::string record_file(const Model& model, const std::vector<std::string>& options)
 try {
     ContentHash hash;
-    hash.add(first_line);
+    hash.add(std::string(first_line));
     add_model(hash, model);
     for (const std::string& option : options) hash.add(option);
     if (std::ranges::any_of(model.parameters, &Parameter::bound))
@@ -136,19 +87,15 @@ try {
 
 std::optional<RunRecord> find_record(const std::string& file)
 {
-    const std::optional<std::string> text = kept_text(file);
-    if (!text || !text->starts_with(first_line)) return std::nullopt;
-    RunRecord record = read_record(*text);
+    std::optional<RunRecord> record = kept<RunRecord>(file, first_line);
     // Compiled code is only ever run from the folder of the record.
-    if (fs::path(record.program).parent_path() != fs::path(file).parent_path()) return std::nullopt;
-    if (!use_cached(record.program)) return std::nullopt;
-    return record;
+    if (!record || fs::path(record->program).parent_path() != fs::path(file).parent_path()) return std::nullopt;
+    return use_cached(record->program) ? record : std::nullopt;
 }
 
 void keep_record(const std::string& file, const RunRecord& record)
 {
-    const std::string text = text_of(record);
-    if (!file.empty() && text_of(read_record(text)) == text) keep_text(file, text);
+    keep(file, first_line, record);
 }
 
 bool is_decided_for(const RunRecord& record, const std::vector<long double>& parameters)

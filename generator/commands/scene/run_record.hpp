@@ -24,6 +24,12 @@ struct RunRecord {
     std::vector<long double> decided_for; ///< the values of the parameters; empty with `regularity`
     /// Parameters with the values for which alone the equations are proved, "c = 3/5"; the program takes no others.
     std::vector<std::string> proved_for;
+
+    static void each(auto& self, auto& archive)
+    {
+        archive(self.program, self.warnings, self.names.lanes, self.names.observables, self.names.states,
+                self.energy_changes, self.searches, self.regularity, self.decided_for, self.proved_for);
+    }
 };
 
 /// The record of a model that is generated, without its program.

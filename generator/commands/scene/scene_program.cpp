@@ -67,10 +67,10 @@ std::vector<std::string> entries_of(const KernelModule& module, const char* kern
 std::string program_text(const Driver& driver, const std::string& name, const MethodEntry& method, bool reversible)
 {
     const std::string type = reversible ? fmt::format("Reversible<lagen::{}>", method.type) : method.type;
-    return fmt::format(
-        "#include \"model.hpp\"\n#include \"{}/driver.hpp\"\nint main(int argc, char** argv)\n{{\n    return "
-        "lagen::{}<lagen::models::{}<double>, lagen::{}>(argc, argv);\n}}\n",
-        driver.folder, driver.function, cpp_names({name})[0], type);
+    return fmt::format("#include \"model.hpp\"\n#include \"{}/driver.hpp\"\nint main({})\n{{\n    return "
+                       "lagen::{}<lagen::models::{}<double>, lagen::{}>({});\n}}\n",
+                       driver.folder, driver.takes_arguments ? "int argc, char** argv" : "", driver.function,
+                       cpp_names({name})[0], type, driver.takes_arguments ? "argc, argv" : "");
 }
 
 std::string model_text(const std::string& name, bool packs)

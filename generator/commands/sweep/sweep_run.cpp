@@ -3,7 +3,6 @@
 /// has the same bits.
 #include "commands/sweep/sweep_run.hpp"
 
-#include "commands/machine/temporary_folder.hpp"
 #include "commands/machine/write_file.hpp"
 #include "commands/scene/run_report.hpp"
 #include "commands/sweep/sweep_rows.hpp"
@@ -18,6 +17,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <optional>
+#include <utility>
 
 namespace lagen {
 
@@ -193,12 +193,10 @@ void SweepRun::run()
 {
     const std::uint64_t wanted = shard_.size(rows_.count);
     if (file_.rows() == wanted) return;
-    const TemporaryFolder folder(shared_temporary_folder(), "lagen-sweep");
-    const std::string file = folder.file("job");
-    write_file(file, detail::packed(job()));
+    std::string first = detail::packed(detail::packed(job())); // with its size
     const ProcessResult result = run_process(
-        {setting_.record.program, file}, [this](const char* bytes, std::size_t count) { take(bytes, count); },
-        [this] { return next_starts(); });
+        {setting_.record.program}, [this](const char* bytes, std::size_t count) { take(bytes, count); },
+        [this, &first] { return std::exchange(first, {}) + next_starts(); });
     progress_.clear();
     require_started(result, setting_.record.program);
     if (file_.rows() == wanted && result.exit_code == 0) return write_standard_error(result.error);

@@ -5,20 +5,14 @@
 ///   #include "lagen_chart/discrete_stability.hpp"
 ///   int main(int argc, char** argv) { return lagen::chart_discrete_stability<lagen::models::NAME<double>>("name",
 ///   argc, argv); }
-/// Its argument is a file of lines of words,
-///   span START END            runs have as many whole steps as there is room for, one at least
-///   follow energy | invariant K | size     the quantity f whose change is looked at
-///   step K                    the number of the parameter that is the step
-///   columns N                 of the chart
-///   figures OMEGA SCALE REACHED    of a column, as lagen_chart/stability.hpp finds them; no such lines, or one each
-///   cell P.. | S..            parameters and start of a step of a column, column by column
-/// It prints what that program prints, and behind it for each column `fold H`: the step from which on the momenta of
-/// the start have no arrow (no_solution), between the first two steps of the column that differ in this; 0 where there
-/// are none, or where the start itself changes with the step.
+/// Its argument is the file of a StabilityRequest with a start for every step of every column; it answers a
+/// StabilityAnswer. Runs have as many whole steps as there is room for, one at least. A fold lies between the first two
+/// steps of a column that differ in whether the momenta of the start have an arrow (no_solution); there is none where
+/// the start itself changes with the step.
 ///
 /// Where no figures are given a column is looked at along its own motion, with a tenth of its shortest step and at most
-/// 10^6 steps: SCALE is the largest |f - f(1)| with the arrow 1 at the same point, which tends to the kinetic energy
-/// where f is the energy; OMEGA the largest |arg lambda|/h of an eigenvalue lambda of the derivative of a step in (x,
+/// 10^6 steps: the scale is the largest |f - f(1)| with the arrow 1 at the same point, which tends to the kinetic energy
+/// where f is the energy; omega the largest |arg lambda|/h of an eigenvalue lambda of the derivative of a step in (x,
 /// mu), by differences, of the first 400 steps.
 #pragma once
 
@@ -33,48 +27,17 @@ inline constexpr int fold_halvings = 40;
 template <class M>
 struct DiscreteRequest {
     StabilityRequest common;
-    std::size_t step = 0, columns = 0;
     std::vector<StabilityColumn<M>> cells; ///< models with their steps
-    std::vector<std::array<double, 3>> figures;
 
-    [[nodiscard]] std::size_t steps() const { return cells.size() / columns; }
+    [[nodiscard]] std::size_t steps() const { return common.steps.size(); }
 };
-
-template <class M>
-bool read_discrete(const char* path, DiscreteRequest<M>& request)
-{
-    std::ifstream file(path);
-    for (std::string line; std::getline(file, line);) {
-        std::istringstream words(line);
-        std::string key;
-        words >> key;
-        if (key == "span") {
-            words >> request.common.span.start >> request.common.span.end;
-        } else if (key == "follow") {
-            words >> request.common.follow >> request.common.invariant;
-        } else if (key == "step") {
-            words >> request.step;
-        } else if (key == "columns") {
-            words >> request.columns;
-        } else if (key == "figures") {
-            std::array<double, 3>& figures = request.figures.emplace_back();
-            for (double& figure : figures) words >> figure;
-        } else if (key == "cell") {
-            request.cells.emplace_back();
-            if (!read_column(words, request.cells.back())) return false;
-        } else {
-            return false;
-        }
-    }
-    return request.columns > 0 && !request.cells.empty() && request.cells.size() % request.columns == 0;
-}
 
 /// f; of `size` the largest entry of (x, mu).
 template <class M>
 double followed_step(const StabilityRequest& request, const M& model, double t, const typename M::State& s)
 {
     using Lanes = detail::ArrowLanes<M>;
-    if (request.follow != "size") return followed(request, model, t, s);
+    if (request.follow != Follow::size) return followed(request, model, t, s);
     double most = 0;
     for (int i = 0; i < Lanes::n; ++i) most = std::max(most, std::abs(s[i]));
     for (int a = Lanes::momenta; a < M::dimension; ++a) most = std::max(most, std::abs(s[a]));
@@ -111,18 +74,18 @@ double fastest_turn(const M& model, double t, const typename M::State& s)
 
 /// Of the column that begins with cell `first`.
 template <class M>
-std::array<double, 3> figures_along(const DiscreteRequest<M>& request, std::size_t first)
+ColumnFigures figures_along(const DiscreteRequest<M>& request, std::size_t first)
 {
     std::size_t shortest = first;
     for (std::size_t i = first; i < first + request.steps(); ++i)
         if (request.cells[i].model.step() < request.cells[shortest].model.step()) shortest = i;
     StabilityColumn<M> column = request.cells[shortest];
-    const double length = request.common.span.end - request.common.span.start;
+    const double length = request.common.end - request.common.start;
     const double step = std::max(short_step * column.model.step(), length / double(most_reference_steps));
-    column.model.parameter(request.step) = step;
-    Integrator run(column.model, column.start, request.common.span.start, Discrete{});
+    column.model.parameter(request.common.step) = step;
+    Integrator run(column.model, column.start, request.common.start, Discrete{});
     double largest = 0;
-    for (int k = 0; run.status() == Status::ok && run.t() + step <= request.common.span.end; ++k) {
+    for (int k = 0; run.status() == Status::ok && run.t() + step <= request.common.end; ++k) {
         const double f = followed_step(request.common, column.model, run.t(), run.state());
         typename M::State unit = run.state();
         using Lanes = detail::ArrowLanes<M>;
@@ -134,7 +97,7 @@ std::array<double, 3> figures_along(const DiscreteRequest<M>& request, std::size
         if (k < most_turns) column.omega = std::max(column.omega, fastest_turn(column.model, run.t(), run.state()));
         if (run.step() != Status::ok) break;
     }
-    if (request.common.follow == "size" || !(column.scale > 0)) column.scale = largest > 0 ? largest : 1;
+    if (request.common.follow == Follow::size || !(column.scale > 0)) column.scale = largest > 0 ? largest : 1;
     return {column.omega, column.scale, run.t()};
 }
 
@@ -142,10 +105,10 @@ template <class M>
 Fate discrete_fate(const DiscreteRequest<M>& request, const StabilityColumn<M>& cell, double scale)
 {
     const StabilityRequest& common = request.common;
-    Integrator run(cell.model, cell.start, common.span.start, Discrete{});
-    const bool conserved = common.follow != "size";
-    const double length = common.span.end - common.span.start;
-    const double from = conserved ? followed_step(common, cell.model, common.span.start, run.state()) : 0;
+    Integrator run(cell.model, cell.start, common.start, Discrete{});
+    const bool conserved = common.follow != Follow::size;
+    const double length = common.end - common.start;
+    const double from = conserved ? followed_step(common, cell.model, common.start, run.state()) : 0;
     FateWatch watch(from, scale, length, conserved);
     const double count = std::max(1.0, std::floor(length / cell.model.step() * (1 + 1e-9)));
     if (run.status() != Status::ok) watch.stop(run.status());
@@ -154,7 +117,7 @@ Fate discrete_fate(const DiscreteRequest<M>& request, const StabilityColumn<M>& 
             watch.stop(status);
             break;
         }
-        if (!watch.see(followed_step(common, cell.model, run.t(), run.state()), run.t() - common.span.start)) break;
+        if (!watch.see(followed_step(common, cell.model, run.t(), run.state()), run.t() - common.start)) break;
     }
     return watch.fate(run.t());
 }
@@ -169,7 +132,7 @@ bool is_behind_fold(const StabilityColumn<M>& cell, double t)
 template <class M>
 double first_fold(const DiscreteRequest<M>& request, std::size_t first)
 {
-    const double t = request.common.span.start;
+    const double t = request.common.start;
     for (std::size_t i = first; i + 1 < first + request.steps(); ++i) {
         StabilityColumn<M> cell = request.cells[i];
         const StabilityColumn<M>& next = request.cells[i + 1];
@@ -178,7 +141,7 @@ double first_fold(const DiscreteRequest<M>& request, std::size_t first)
         double good = cell.model.step(), bad = next.model.step();
         for (int k = 0; k < fold_halvings; ++k) {
             const double middle = (good + bad) / 2;
-            cell.model.parameter(request.step) = middle;
+            cell.model.parameter(request.common.step) = middle;
             (is_behind_fold(cell, t) ? bad : good) = middle;
         }
         return good;
@@ -194,20 +157,22 @@ template <DiscreteMotion M>
 int chart_discrete_stability(const char* name, int argc, char** argv)
 {
     chart::DiscreteRequest<M> request;
-    if (argc != 2 || !chart::read_discrete(argv[1], request)) return 4;
-    const std::size_t steps = request.steps();
-    if (request.figures.empty())
-        for (std::size_t j = 0; j < request.columns; ++j)
-            request.figures.push_back(chart::figures_along(request, j * steps));
-    if (request.figures.size() != request.columns) return 4;
-    for (const auto& [omega, scale, reached] : request.figures)
-        std::printf("column %.17g %.17g %.17g\n", omega, scale, reached);
-    std::printf("method %s\n", name);
-    for (std::size_t k = 0; k < request.cells.size(); ++k)
-        chart::print_fate(chart::discrete_fate(request, request.cells[k], request.figures[k / steps][1]));
-    for (std::size_t j = 0; j < request.columns; ++j)
-        std::printf("fold %.17g\n", chart::first_fold(request, j * steps));
-    return std::fflush(stdout) == 0 ? 0 : 5;
+    chart::StabilityAnswer found;
+    if (argc != 2 || !detail::read_packed(argv[1], request.common) ||
+        !chart::fill_columns(request.common, request.cells) || request.steps() == 0)
+        return 4;
+    const std::size_t steps = request.steps(), columns = request.cells.size() / steps;
+    found.columns = request.common.figures;
+    for (std::size_t j = found.columns.size(); j < columns; ++j)
+        found.columns.push_back(chart::figures_along(request, j * steps));
+    chart::MethodFates fates{name, {}, {}};
+    for (std::size_t k = 0; k < columns * steps; ++k)
+        fates.cells.push_back(
+            chart::cell_of(chart::discrete_fate(request, request.cells[k], found.columns[k / steps].scale)));
+    for (std::size_t j = 0; j < columns; ++j) fates.folds.push_back(chart::first_fold(request, j * steps));
+    found.methods.push_back(std::move(fates));
+    chart::answer(found);
+    return std::ferror(stdout) == 0 ? 0 : 5;
 }
 
 } // namespace lagen

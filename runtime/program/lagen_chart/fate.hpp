@@ -4,11 +4,13 @@
 #pragma once
 
 #include "lagen/status.hpp"
+#include "lagen_chart/stability_request.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <string_view>
 
@@ -115,9 +117,15 @@ class FateWatch {
     std::array<Range, 3> parts_;
 };
 
-inline void print_fate(const Fate& fate)
+/// Error and drift to six digits.
+inline StabilityCell cell_of(const Fate& fate)
 {
-    std::printf("%s %.17g %.6g %.6g %s\n", fate.outcome, fate.t, fate.error, fate.drift, to_text(fate.status));
+    const auto six_digits = [](double x) {
+        char text[32];
+        std::snprintf(text, sizeof text, "%.6g", x);
+        return std::strtod(text, nullptr);
+    };
+    return {fate.outcome, fate.t, six_digits(fate.error), six_digits(fate.drift), to_text(fate.status)};
 }
 
 } // namespace lagen::chart

@@ -5,6 +5,7 @@
 /// with members that are numbers, enumerations, strings, optionals, vectors, or such structures.
 #pragma once
 
+#include <cfloat>
 #include <cstdio>
 #include <cstring>
 #include <string>
@@ -15,6 +16,9 @@ namespace lagen::detail {
 
 template <class T>
 inline constexpr bool is_plain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+/// The bytes of a number; those behind the digits of an extended one say nothing.
+template <class T>
+inline constexpr std::size_t plain_size = std::is_same_v<T, long double>&& LDBL_MANT_DIG == 64 ? 10 : sizeof(T);
 
 class Packer {
   public:
@@ -27,7 +31,7 @@ class Packer {
     void put(const T& value)
     {
         if constexpr (is_plain<T>) {
-            bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+            bytes.append(reinterpret_cast<const char*>(&value), plain_size<T>);
         } else if constexpr (requires { value.has_value(); }) {
             put(value.has_value());
             if (value) put(*value);
@@ -55,9 +59,10 @@ class Unpacker {
     void get(T& value)
     {
         if constexpr (is_plain<T>) {
-            if (!good || (good = rest.size() >= sizeof value) == false) return;
-            std::memcpy(&value, rest.data(), sizeof value);
-            rest.remove_prefix(sizeof value);
+            good = good && rest.size() >= plain_size<T>;
+            if (!good) return;
+            std::memcpy(&value, rest.data(), plain_size<T>);
+            rest.remove_prefix(plain_size<T>);
         } else if constexpr (requires { value.has_value(); }) {
             if (bool has = false; get(has), has) get(value.emplace());
         } else if constexpr (requires { value.begin(); }) {

@@ -3,12 +3,9 @@
 /// whole generated main is
 ///   #include "model.hpp"
 ///   #include "lagen_sweep/driver.hpp"
-///   int main(int argc, char** argv) { return lagen::sweep<lagen::models::NAME<double>, lagen::METHOD>(argc, argv); }
+///   int main() { return lagen::sweep<lagen::models::NAME<double>, lagen::METHOD>(); }
 ///
-/// Its argument is the file of a SweepJob (lagen_run/archive.hpp). Rows of a trajectory are at a number of even times,
-/// an interval of its own apart, at times of its own, as many as the job has, or at an event.
-///
-/// Standard input holds native doubles, for each trajectory
+/// Standard input holds a SweepJob (lagen_run/archive.hpp) behind its size, then native doubles, for each trajectory
 ///   failure, parameters.., state lanes.., start, end, step, relative, absolute, interval, times..
 /// `failure` is 0, or a number that stands for the reason why there is nothing to integrate: then the line of the
 /// trajectory is "#" and that number. Standard output has a line for each trajectory, in their order: "<LANE>" of each
@@ -16,8 +13,8 @@
 /// good state, the columns there, for each event how often it happened and when it did last, for each column its least
 /// and largest value at accepted steps and rows, the status as to_text(Status). Numbers are shortest decimals; what is
 /// no finite number is an empty field. The bits are those of lagen_run/driver.hpp, whatever the number of threads. Exit
-/// codes: 0 done, 4 wrong arguments, 5 standard input ends within a trajectory, standard output takes no more, or there
-/// is not memory enough.
+/// codes: 0 done, 4 there is no job that fits the model, 5 standard input ends within a trajectory, standard output
+/// takes no more, or there is not memory enough.
 #pragma once
 
 #include "lagen/ensemble/in_order.hpp"
@@ -251,12 +248,17 @@ class Sweep {
 
 /// The whole program; see the top of the file. Returns the exit code.
 template <class M, class Method>
-int sweep(int argc, char** argv)
+int sweep()
 try {
     static_assert(std::is_same_v<typename M::Scalar, double>, "lagen sweep integrates in double");
     detail::SweepJob job;
-    if (argc != 2 || !detail::read_packed(argv[1], job)) return detail::complain("a job is required", 4);
-    if (detail::RunPlan<M> plan; !detail::plan_columns(job.run, plan.model) || !detail::plan_events(job.run, plan))
+    std::size_t size = 0;
+    bool good = std::fread(&size, sizeof size, 1, stdin) == 1 && size < 100'000'000;
+    std::string bytes(good ? size : 0, ' ');
+    std::string_view rest = bytes;
+    good = good && std::fread(bytes.data(), 1, size, stdin) == size && detail::take_packed(rest, job);
+    if (detail::RunPlan<M> plan;
+        !good || !detail::plan_columns(job.run, plan.model) || !detail::plan_events(job.run, plan))
         return detail::complain("a job for this model is required", 4);
     return detail::Sweep<M, Method>(job).run();
 } catch (const std::exception& error) {
