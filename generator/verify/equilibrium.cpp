@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/equilibrium.hpp"
 
+#include "activity.hpp"
 #include "algebra/orthonormal_span.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/simplify/simplify.hpp"
@@ -111,13 +112,16 @@ class RestSearch {
     Equilibrium run(const std::vector<MotionPoint>& starts)
     {
         std::string obstacle;
+        Activity activity("searching an equilibrium", starts.size() * (equations_.inputs.empty() ? 1 : 3));
         for (const From from : {From::held_inputs, From::start, From::resting_inputs}) {
             const bool moves_inputs = from != From::held_inputs;
             if (moves_inputs && equations_.inputs.empty()) break;
             for (const MotionPoint& start : starts) {
+                activity.next();
                 std::string met =
                     search(from == From::resting_inputs ? with_resting_inputs(start) : start, moves_inputs);
                 if (met.empty()) {
+                    const Activity proof("certificate and slopes");
                     Equilibrium out;
                     out.moves_inputs = moves_inputs;
                     const std::vector<Ball> at = certified(out);
