@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cstddef>
 #include <string>
+#include <utility>
 
 namespace lagen {
 
@@ -30,6 +31,17 @@ class Activity {
     std::size_t count_;
     std::atomic<std::size_t> begun_ = 0;
 };
+
+/// f(0), .., f(count - 1), each told as it begins.
+template <class Each>
+void counted(std::string what, std::size_t count, Each each)
+{
+    Activity activity(std::move(what), count);
+    for (std::size_t k = 0; k < count; ++k) {
+        activity.next();
+        each(k);
+    }
+}
 
 /// The activities that last, from the outside in: "deciding the model: jacobi, 12 of 400"; "" where none does. From any
 /// thread.

@@ -12,6 +12,7 @@
 #include "graph/simplify/simplify.hpp"
 #include "model/scene_form.hpp"
 #include "verify/control_maximum.hpp"
+#include "verify/leaf.hpp"
 
 #include <fmt/format.h>
 
@@ -169,6 +170,17 @@ std::vector<std::string> require_unrefuted(const char* noun, const std::string& 
     return {fmt::format("this {} is not proved: {}{}", noun, what, what == structure.note ? "" : " is undecided")};
 }
 
+/// A start that is moved stays on its leaf (verify/leaf.hpp).
+void find_casimirs_for_starts(CheckedModel& checked)
+{
+    Base& base = checked.model.base;
+    if (base.constraints.empty() || std::ranges::none_of(checked.model.scenes, &Scene::project)) return;
+    Graph graph = checked.system.graph;
+    const Leaves leaves = leaves_of(graph, checked.system);
+    for (std::size_t k = base.casimirs.size(); k < leaves.casimirs.size(); ++k)
+        base.found_casimirs.push_back(to_tree(graph, leaves.casimirs[k]));
+}
+
 void prove(CheckedModel& checked)
 {
     const Model& model = checked.model;
@@ -182,6 +194,7 @@ void prove(CheckedModel& checked)
     checked.warnings = require_unrefuted("model", model.name, model.file->name, structure, checked.unchecked);
     if (verified.control.maximum.kind == ControlMaximum::Kind::stationary)
         checked.warnings.push_back(stationary_controls);
+    find_casimirs_for_starts(checked);
 }
 
 CheckedModel load(const std::string& path, const std::vector<Setting>& settings, bool unchecked)

@@ -2,6 +2,8 @@
 /// Making closed nodes, with the zeros and ones of arrays folded.
 #include "expression/closed.hpp"
 
+#include "expression/special_angles.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -49,6 +51,8 @@ void Budget::spend(std::size_t operations, const SourceRange& where)
 
 ClosedTree Maker::operation(const Tree& tree, std::vector<ClosedTree> arguments) const
 {
+    if (tree->kind == TreeKind::call)
+        if (const auto value = value_at_turn(tree->function, arguments[0].tree)) return number(*value);
     std::vector<Measure> measures;
     measures.reserve(arguments.size());
     bool changed = false;
@@ -115,13 +119,11 @@ ClosedTree Maker::add(std::vector<ClosedTree> terms) const
 ClosedTree Maker::multiply(std::vector<ClosedTree> factors) const
 {
     bool negative = false;
-    for (ClosedTree& factor : factors) {
-        const bool is_negative =
-            factor.tree->kind == TreeKind::negate || (factor.tree->kind == TreeKind::number && factor.tree->number < 0);
-        if (!is_negative) continue;
-        factor = negate(factor);
-        negative = !negative;
-    }
+    const auto is_negative = [](const Tree& tree) {
+        return tree->kind == TreeKind::negate || (tree->kind == TreeKind::number && tree->number < 0);
+    };
+    for (ClosedTree& factor : factors)
+        for (; is_negative(factor.tree); negative = !negative) factor = negate(factor);
     for (const ClosedTree& factor : factors)
         if (is_number(factor, 0)) {
             count();

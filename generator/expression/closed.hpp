@@ -71,7 +71,8 @@ class Maker {
     [[nodiscard]] const SourceRange& where() const { return where_; }
     [[nodiscard]] SignedIdentity& identity() const { return identity_; }
 
-    /// The node itself where its arguments are closed already, else a copy with closed arguments.
+    /// The node itself where its arguments are closed already, else a copy with closed arguments; the number that a
+    /// sine of a right angle is.
     [[nodiscard]] ClosedTree operation(const Tree& tree, std::vector<ClosedTree> arguments) const;
     /// All of the terms or factors as they are.
     [[nodiscard]] ClosedTree join(TreeKind kind, std::vector<ClosedTree> arguments) const

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <span>
 
 namespace lagen {
 
@@ -120,22 +121,36 @@ constexpr Range letters[] = {
 };
 
 struct DottedLetter {
-    char letter;
-    std::string_view dotted;
+    std::string_view letter, dotted;
 };
 
 constexpr DottedLetter dotted_letters[] = {
-    {'a', "ȧ"}, {'b', "ḃ"}, {'c', "ċ"}, {'d', "ḋ"}, {'e', "ė"}, {'f', "ḟ"}, {'g', "ġ"}, {'h', "ḣ"},
-    {'m', "ṁ"}, {'n', "ṅ"}, {'o', "ȯ"}, {'p', "ṗ"}, {'r', "ṙ"}, {'s', "ṡ"}, {'t', "ṫ"}, {'w', "ẇ"},
-    {'x', "ẋ"}, {'y', "ẏ"}, {'z', "ż"}, {'A', "Ȧ"}, {'B', "Ḃ"}, {'C', "Ċ"}, {'D', "Ḋ"}, {'E', "Ė"},
-    {'F', "Ḟ"}, {'G', "Ġ"}, {'H', "Ḣ"}, {'I', "İ"}, {'M', "Ṁ"}, {'N', "Ṅ"}, {'O', "Ȯ"}, {'P', "Ṗ"},
-    {'R', "Ṙ"}, {'S', "Ṡ"}, {'T', "Ṫ"}, {'W', "Ẇ"}, {'X', "Ẋ"}, {'Y', "Ẏ"}, {'Z', "Ż"}};
+    {"a", "ȧ"}, {"b", "ḃ"}, {"c", "ċ"}, {"d", "ḋ"}, {"e", "ė"}, {"f", "ḟ"}, {"g", "ġ"}, {"h", "ḣ"},
+    {"m", "ṁ"}, {"n", "ṅ"}, {"o", "ȯ"}, {"p", "ṗ"}, {"r", "ṙ"}, {"s", "ṡ"}, {"t", "ṫ"}, {"w", "ẇ"},
+    {"x", "ẋ"}, {"y", "ẏ"}, {"z", "ż"}, {"A", "Ȧ"}, {"B", "Ḃ"}, {"C", "Ċ"}, {"D", "Ḋ"}, {"E", "Ė"},
+    {"F", "Ḟ"}, {"G", "Ġ"}, {"H", "Ḣ"}, {"I", "İ"}, {"M", "Ṁ"}, {"N", "Ṅ"}, {"O", "Ȯ"}, {"P", "Ṗ"},
+    {"R", "Ṙ"}, {"S", "Ṡ"}, {"T", "Ṫ"}, {"W", "Ẇ"}, {"X", "Ẋ"}, {"Y", "Ẏ"}, {"Z", "Ż"}};
 
-constexpr std::string_view combining_dot = "\u0307";
+constexpr DottedLetter letters_of_two_dots[] = {{"a", "ä"}, {"e", "ë"}, {"h", "ḧ"}, {"i", "ï"}, {"o", "ö"}, {"t", "ẗ"},
+                                                {"u", "ü"}, {"w", "ẅ"}, {"x", "ẍ"}, {"y", "ÿ"}, {"A", "Ä"}, {"E", "Ë"},
+                                                {"H", "Ḧ"}, {"I", "Ï"}, {"O", "Ö"}, {"U", "Ü"}, {"W", "Ẅ"}, {"X", "Ẍ"},
+                                                {"Y", "Ÿ"}, {"ι", "ϊ"}, {"υ", "ϋ"}};
+
+constexpr std::string_view combining_dot = "\u0307", two_combining_dots = "\u0308";
 
 std::size_t first_letter_size(std::string_view name)
 {
     return !name.empty() && static_cast<unsigned char>(name[0]) >= 0x80 ? 2 : 1;
+}
+
+std::optional<std::string> without_accent(std::string_view name, std::span<const DottedLetter> whole,
+                                          std::string_view combining)
+{
+    for (const auto& [letter, dotted] : whole)
+        if (name.starts_with(dotted)) return std::string(letter) + std::string(name.substr(dotted.size()));
+    const std::size_t size = first_letter_size(name);
+    if (name.size() < size || !name.substr(size).starts_with(combining)) return std::nullopt;
+    return std::string(name.substr(0, size)) + std::string(name.substr(size + combining.size()));
 }
 
 } // namespace
@@ -156,18 +171,19 @@ std::string with_plain_digits(std::string_view name)
 std::string with_dot(const std::string& name)
 {
     for (const auto& [letter, dotted] : dotted_letters)
-        if (name[0] == letter) return std::string(dotted) + name.substr(1);
+        if (name.starts_with(letter)) return std::string(dotted) + name.substr(1);
     const std::size_t size = first_letter_size(name);
     return name.substr(0, size) + std::string(combining_dot) + name.substr(size);
 }
 
 std::optional<std::string> without_dot(std::string_view name)
 {
-    for (const auto& [letter, dotted] : dotted_letters)
-        if (name.starts_with(dotted)) return letter + std::string(name.substr(dotted.size()));
-    const std::size_t size = first_letter_size(name);
-    if (name.size() < size || !name.substr(size).starts_with(combining_dot)) return std::nullopt;
-    return std::string(name.substr(0, size)) + std::string(name.substr(size + combining_dot.size()));
+    return without_accent(name, dotted_letters, combining_dot);
+}
+
+std::optional<std::string> without_two_dots(std::string_view name)
+{
+    return without_accent(name, letters_of_two_dots, two_combining_dots);
 }
 
 bool is_letter(char32_t c)

@@ -34,6 +34,9 @@ namespace lagen {
 /// The name without the dot over its first letter; nothing where there is none.
 [[nodiscard]] std::optional<std::string> without_dot(std::string_view name);
 
+/// The name without the two dots over its first letter, in one character or two; nothing where there are none.
+[[nodiscard]] std::optional<std::string> without_two_dots(std::string_view name);
+
 /// The combining dot, and two of them, over the letter before.
 [[nodiscard]] constexpr bool is_dot_above(char32_t c)
 {

@@ -3,6 +3,7 @@
 #include "expression/name_hints.hpp"
 
 #include "expression/derivative.hpp"
+#include "expression/letters.hpp"
 
 #include <fmt/format.h>
 
@@ -71,7 +72,8 @@ std::string listing(const char* heading, const std::vector<std::string>& known)
 
 std::string hint_for_symbol(const std::string& name, const std::vector<std::string>& known)
 {
-    if (name.find("\u0308") != std::string::npos)
+    const auto plain = without_two_dots(name);
+    if (name.find("\u0308") != std::string::npos || (plain && std::ranges::find(known, *plain) != known.end()))
         return "two dots are an acceleration, which follows from the equations";
     const std::string nearest = nearest_name(name, known);
     if (!nearest.empty()) return fmt::format("did you mean '{}'?", nearest);

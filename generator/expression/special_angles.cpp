@@ -3,10 +3,13 @@
 
 #include <array>
 #include <utility>
+#include <vector>
 
 namespace lagen {
 
 namespace {
+
+constexpr int deepest_angle = 12; ///< trees are shared, and this walk does not remember them
 
 /// Turns of the first quadrant, and the squares of their sines.
 const std::array<std::pair<Rational, Rational>, 5>& quadrant()
@@ -19,7 +22,55 @@ const std::array<std::pair<Rational, Rational>, 5>& quadrant()
     return table;
 }
 
+/// rest + turn pi.
+struct Angle {
+    Rational turn = 0, rest = 0;
+};
+
+std::optional<Angle> angle_of(const TreeNode& node, int depth = deepest_angle)
+{
+    if (depth == 0) return std::nullopt;
+    std::vector<Angle> of;
+    for (const Tree& argument : node.arguments) {
+        const auto angle = angle_of(*argument, depth - 1);
+        if (!angle) return std::nullopt;
+        of.push_back(*angle);
+    }
+    Angle out;
+    switch (node.kind) {
+    case TreeKind::pi: return Angle{1, 0};
+    case TreeKind::number: return Angle{0, node.number};
+    case TreeKind::negate: return Angle{-of[0].turn, -of[0].rest};
+    case TreeKind::add:
+        for (const Angle& term : of) out = {out.turn + term.turn, out.rest + term.rest};
+        return out;
+    case TreeKind::multiply:
+        out.rest = 1;
+        for (const Angle& b : of) {
+            if (out.turn != 0 && b.turn != 0) return std::nullopt;
+            out = {out.turn * b.rest + out.rest * b.turn, out.rest * b.rest};
+        }
+        return out;
+    case TreeKind::divide:
+        if (of[1].turn != 0 || of[1].rest == 0) return std::nullopt;
+        return Angle{of[0].turn / of[1].rest, of[0].rest / of[1].rest};
+    default: return std::nullopt;
+    }
+}
+
 } // namespace
+
+std::optional<Rational> value_at_turn(Function function, const Tree& argument)
+{
+    if (function != Function::sin && function != Function::cos && function != Function::tan) return std::nullopt;
+    const auto angle = angle_of(*argument);
+    if (!angle || angle->rest != 0) return std::nullopt;
+    const auto value = function == Function::sin   ? sine_of_turn(angle->turn)
+                       : function == Function::cos ? cosine_of_turn(angle->turn)
+                                                   : tangent_of_turn(angle->turn);
+    const auto size = value ? rational_root(value->square) : std::nullopt;
+    return size ? std::optional<Rational>(value->sign * *size) : std::nullopt;
+}
 
 std::optional<Rational> rational_root(const Rational& value)
 {

@@ -29,6 +29,9 @@ struct SignedRoot {
 [[nodiscard]] std::optional<SignedRoot> cosine_of_turn(const Rational& turn);
 [[nodiscard]] std::optional<SignedRoot> tangent_of_turn(const Rational& turn);
 
+/// sin, cos or tan of a multiple of pi that is written as one, where it is rational; nothing of other calls.
+[[nodiscard]] std::optional<Rational> value_at_turn(Function function, const Tree& argument);
+
 /// asin(a)/pi and atan(a)/pi, where they are such turns.
 [[nodiscard]] std::optional<Rational> turn_of_sine(const SignedRoot& a);
 [[nodiscard]] std::optional<Rational> turn_of_tangent(const SignedRoot& a);

@@ -44,6 +44,7 @@ struct Base {
     std::vector<Tree> constraints;             ///< closed trees over x and parameters; M is their common zero set
     std::vector<SourceRange> constraint_texts; ///< where each stands, or the matrix that it is an entry of
     std::vector<NamedTree> casimirs;           ///< claimed rho_a(f) = 0
+    std::vector<Tree> found_casimirs;          ///< more of them, where a start is to be moved: what read them adds none
     std::vector<Tree> domain;                  ///< strict comparisons (<, >, !=) that hold on M
 };
 

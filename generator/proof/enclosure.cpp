@@ -64,6 +64,24 @@ void integer_power(arb_ptr z, arb_srcptr x, std::int32_t exponent, slong precisi
     fmpz_clear(e);
 }
 
+/// [0, b], where b bounds |x|.
+void set_up_to(arb_ptr z, arb_srcptr x)
+{
+    mag_t half;
+    mag_init(half);
+    arb_get_mag(half, x);
+    mag_mul_2exp_si(half, half, -1);
+    arf_set_mag(arb_midref(z), half);
+    mag_swap(arb_radref(z), half);
+    mag_clear(half);
+}
+
+/// What is left of an enclosure of something that is not below 0.
+void cut_below_zero(Ball& x)
+{
+    if (x.is_finite() && arb_contains_negative(x.get()) != 0) set_up_to(x.get(), x.get());
+}
+
 /// A constant exponent: x >= 0, x > 0 where it is negative, any x where it is an integer. Any other exponent: x > 0,
 /// also where it happens to be an integer at the point, so that x^y is defined on open sets only and equals exp(y log
 /// x).
@@ -71,6 +89,13 @@ void real_power(arb_ptr z, arb_srcptr x, arb_srcptr y, bool constant, slong prec
 {
     if (constant && arb_is_zero(x) != 0 && arb_is_positive(y) != 0) {
         arb_zero(z);
+    } else if (constant && arb_is_nonnegative(x) != 0 && arb_contains_zero(x) != 0 && arb_is_positive(y) != 0) {
+        arb_t end;
+        arb_init(end);
+        arb_get_ubound_arf(arb_midref(end), x, precision);
+        arb_pow(end, end, y, precision);
+        set_up_to(z, end);
+        arb_clear(end);
     } else if (arb_is_positive(x) != 0 || (constant && arb_is_int(y) != 0)) {
         arb_pow(z, x, y, precision);
     } else {
@@ -111,6 +136,31 @@ Evaluation::Evaluation(const Graph& graph, std::vector<NodeId> roots)
     for (std::size_t k = 0; k < order_.size(); ++k) {
         slots_[order_[k]] = k;
         if (graph.op(order_[k]) == Op::input) inputs_.push_back(order_[k]);
+        nonnegative_.push_back(is_nonnegative(order_[k]));
+    }
+}
+
+bool Evaluation::is_nonnegative(NodeId node) const
+{
+    const auto operands = graph_.operands(node);
+    const auto known = [&](std::size_t k) { return nonnegative_[slots_.at(operands[k])]; };
+    switch (graph_.op(node)) {
+    case Op::constant: return sgn(graph_.value(node)) >= 0;
+    case Op::pi:
+    case Op::abs:
+    case Op::sqrt:
+    case Op::exp:
+    case Op::cosh: return true;
+    case Op::power: return graph_.payload(node) % 2 == 0 || known(0);
+    case Op::real_power:
+        return known(0) || !graph_.is_constant(operands[1]) || graph_.value(operands[1]).get_den() != 1;
+    case Op::multiply: return operands[0] == operands[1] || (known(0) && known(1));
+    case Op::maximum: return known(0) || known(1);
+    case Op::add:
+    case Op::divide:
+    case Op::minimum: return known(0) && known(1);
+    case Op::select: return known(1) && known(2);
+    default: return false;
     }
 }
 
@@ -120,6 +170,7 @@ std::vector<Ball> Evaluation::enclose(const BallInputs& inputs, slong precision)
     for (std::size_t k = 0; k < order_.size(); ++k) {
         const NodeId node = order_[k];
         values[k] = graph_.op(node) == Op::input ? inputs.at(node) : enclose_node(node, values, precision);
+        if (nonnegative_[k]) cut_below_zero(values[k]);
     }
     std::vector<Ball> results;
     for (const NodeId root : roots_) results.push_back(values[slots_.at(root)]);

@@ -49,7 +49,7 @@ class Evaluation {
     Evaluation(const Graph& graph, std::vector<NodeId> roots);
 
     /// Enclosures of the roots; comparisons are 1 or 0 where certain, else not finite. A branch of select that is
-    /// certainly not taken is ignored.
+    /// certainly not taken is ignored; squares, moduli and what is made of them are nowhere below 0.
     [[nodiscard]] std::vector<Ball> enclose(const BallInputs& inputs, slong precision) const;
     /// Exact values of the roots; nothing where an operation is not rational, divides by 0 or outgrows 20000 bits.
     [[nodiscard]] std::optional<std::vector<Rational>> exactly(const ExactInputs& inputs) const;
@@ -59,6 +59,7 @@ class Evaluation {
   private:
     [[nodiscard]] Ball enclose_node(NodeId node, const std::vector<Ball>& values, slong precision) const;
     [[nodiscard]] Ball enclose_component(NodeId node, const std::vector<Ball>& values, slong precision) const;
+    [[nodiscard]] bool is_nonnegative(NodeId node) const;
     [[nodiscard]] bool exact_node(NodeId node, const std::vector<Rational>& values, Rational& result) const;
     template <class Value>
     [[nodiscard]] const Value& operand(NodeId node, std::size_t k, const std::vector<Value>& values) const
@@ -71,6 +72,7 @@ class Evaluation {
     std::vector<NodeId> order_;
     std::vector<NodeId> inputs_;
     std::map<NodeId, std::size_t> slots_;
+    std::vector<bool> nonnegative_; ///< by slot: wherever it is defined, as its operation and operands show
 };
 
 /// c_k(z) = sum_j (-z)^j / (2j+k)!, accurate for balls around 0 and of either sign.

@@ -61,6 +61,7 @@ ConstraintFunctions::ConstraintFunctions(const Model& model)
     };
     for (const Tree& constraint : model.base.constraints) append(constraints_, constraint);
     for (const NamedTree& casimir : model.base.casimirs) append(casimirs_, casimir.value);
+    for (const Tree& casimir : model.base.found_casimirs) append(casimirs_, casimir);
 }
 
 std::vector<ConstraintValue> ConstraintFunctions::at(const Values& values) const

@@ -23,7 +23,7 @@ struct ConstraintValue {
     }
 };
 
-/// The constraints and the declared Casimirs of a model with their gradients, on a graph of their own.
+/// The constraints and the Casimirs of a model with their gradients, on a graph of their own.
 class ConstraintFunctions {
   public:
     explicit ConstraintFunctions(const Model& model);
@@ -44,7 +44,7 @@ class ConstraintFunctions {
 };
 
 /// Moves the base coordinates of `values` onto the constraints by Newton steps of least Euclidean length, on the levels
-/// of the declared Casimirs that are no functions of the constraints; true where they were reached, to 1e-17 of their
+/// of the Casimirs, declared or found, that are no functions of the constraints; true where they were reached, to 1e-17 of their
 /// scale or as near as rounding lets them come.
 [[nodiscard]] bool project_start(const ConstraintFunctions& constraints, Values& values);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/cyclic.hpp"
 
+#include "activity.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "verify/judge.hpp"
 #include "verify/proof_setting.hpp"
@@ -57,7 +58,7 @@ StructureReport cyclic_coordinates(const System& system, const ProofBudget& budg
         all.push_back({each.name, jacobian(graph, each.nodes, system.algebroid.x)});
     Judge judge(graph, proof_setting(graph, system), 0, budget);
     StructureReport report;
-    for (std::size_t i = 0; i < system.n(); ++i) {
+    counted("coordinates", system.n(), [&](std::size_t i) {
         const std::string q = graph.input_name(system.algebroid.x[i]);
         Check check{"cyclic", {q}, {}, {}, {}};
         check.decision.status = ProofStatus::proved;
@@ -71,7 +72,7 @@ StructureReport cyclic_coordinates(const System& system, const ProofBudget& budg
                 check.decision = decision;
             }
         report.checks.push_back(std::move(check));
-    }
+    });
     report.verdict = verdict_of(report);
     return report;
 }

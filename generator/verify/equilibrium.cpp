@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/equilibrium.hpp"
 
+#include "activity.hpp"
 #include "algebra/orthonormal_span.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/simplify/simplify.hpp"
 #include "proof/least_squares.hpp"
+#include "proof/rough_term.hpp"
+#include "proof/sloped_functions.hpp"
 #include "verify/augmented_energy.hpp"
 #include "verify/leaf.hpp"
-#include "verify/sloped_functions.hpp"
 
 #include <fmt/format.h>
 
@@ -20,14 +22,16 @@ namespace lagen {
 using proof::Ball;
 using proof::BallMatrix;
 using proof::NewtonEquations;
+using proof::SlopedFunctions;
 
 namespace {
 
 constexpr slong descent_bits = 64, linear_bits = AugmentedEnergy::precision;
 constexpr double perhaps_zero = 1e-5; ///< a coordinate that is taken as 0: tried, then certified
 constexpr long double dependent = 1e-9L;
-constexpr double surely_zero = 1e-14; ///< likewise, where functions do not keep it on its leaf
-constexpr double converged = 1e-12;   ///< of an equation, in units of its terms
+constexpr double surely_zero = 1e-14;    ///< likewise, where functions do not keep it on its leaf
+constexpr double converged = 1e-12;      ///< of an equation, in units of its terms
+constexpr std::size_t longest_term = 80; ///< that a message names
 constexpr double certain_rounding = 0x1p-128, uncertain_rounding = 0x1p-46; ///< of A, in units of its norm
 
 using Nodes = std::vector<NodeId>;
@@ -108,13 +112,16 @@ class RestSearch {
     Equilibrium run(const std::vector<MotionPoint>& starts)
     {
         std::string obstacle;
+        Activity activity("searching an equilibrium", starts.size() * (equations_.inputs.empty() ? 1 : 3));
         for (const From from : {From::held_inputs, From::start, From::resting_inputs}) {
             const bool moves_inputs = from != From::held_inputs;
             if (moves_inputs && equations_.inputs.empty()) break;
             for (const MotionPoint& start : starts) {
+                activity.next();
                 std::string met =
                     search(from == From::resting_inputs ? with_resting_inputs(start) : start, moves_inputs);
                 if (met.empty()) {
+                    const Activity proof("certificate and slopes");
                     Equilibrium out;
                     out.moves_inputs = moves_inputs;
                     const std::vector<Ball> at = certified(out);
@@ -319,24 +326,13 @@ class RestSearch {
                                    &Ball::is_positive);
     }
 
-    /// Where f and its slopes shrink with the box around a point, they are continuous there.
-    void require_smooth(const SlopedFunctions& functions, const std::vector<Ball>& at) const
+    void require_smooth(const Nodes& functions, const std::vector<Ball>& at, bool exactly) const
     {
-        const auto in_box = [&](long exponent) {
-            std::vector<Ball> box;
-            for (const Ball& each : at) box.push_back(proof::widened(each, exponent));
-            NewtonEquations found = functions.at(box, linear_bits);
-            std::ranges::move(found.value.entries, std::back_inserter(found.slope.entries));
-            return found.slope.entries;
-        };
-        const std::vector<Ball> wide = in_box(40), narrow = in_box(60);
-        for (std::size_t k = 0; k < wide.size(); ++k)
-            if (!wide[k].is_finite() || proof::radius_of(narrow[k]) > 0x1p-10 * proof::radius_of(wide[k]) + 0x1p-150)
-                throw MathematicsError(
-                    fmt::format("the rates have no derivatives at the equilibrium {}, or none that are continuous: "
-                                "a kink, a jump or the end of where they are defined",
-                                place()),
-                    "write what is smooth: tanh(v/0.01) for sign(v)");
+        if (const auto term = proof::rough_term(graph_, functions, all_, at, exactly))
+            throw MathematicsError(fmt::format("at the equilibrium {} the rates have no derivatives that are known to "
+                                               "be continuous: {} has a kink or a jump there, or ends there",
+                                               place(), to_text(graph_, *term, longest_term)),
+                                   "write what is smooth: tanh(v/0.01) for sign(v)");
     }
 
     [[nodiscard]] Equilibrium linearised(const std::vector<Ball>& at, Equilibrium out)
@@ -346,7 +342,7 @@ class RestSearch {
         out.at = {{values_.begin(), unknowns}, {inputs, values_.end()}, {unknowns, inputs}};
         const std::size_t n = equations_.state.size(), q = unknowns_.size(), m = equations_.inputs.size();
         const SlopedFunctions functions(graph_, joined(equations_.rates, residuals_), all_);
-        require_smooth(functions, at);
+        require_smooth(joined(equations_.rates, residuals_), at, out.certified && out.radius == 0);
         const BallMatrix slope = functions.at(at, linear_bits).slope;
         const auto through = [&](std::size_t column, std::size_t columns) {
             const BallMatrix direct = block_of(slope, 0, n, column, columns);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/leaf.hpp"
 
+#include "activity.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/evaluate.hpp"
 #include "mechanics/nonholonomic.hpp"
@@ -132,6 +133,7 @@ Leaves leaves_of(Graph& graph, const System& system)
     known.insert(known.end(), out.casimirs.begin(), out.casimirs.end());
     for (const NodeId f : known) (void)differentials.add_differential(f, x);
     if (differentials.size() >= out.codimension) return out;
+    const Activity activity("searching functions that are constant on leaves");
     for (const NodeId f : find_constants(graph, system, out.fields, known, out.codimension - differentials.size()))
         out.casimirs.push_back(f);
     return out;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/verify_quotient.hpp"
 
+#include "activity.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/calculus/transplant.hpp"
 #include "mechanics/routh.hpp"
@@ -57,7 +58,7 @@ StructureReport verify_right_action(const System& moving, const ProofBudget& bud
     const std::vector<NodeId> coordinates = groupoid.coordinates();
     const std::vector<NodeId> moved = target(graph, groupoid, groupoid.arrow);
     ArrowDecider decider(graph, arrow_setting(graph, moving, {x}), groupoid, {groupoid.arrow.W}, budget);
-    for (std::size_t b = 0; b < moving.r(); ++b) {
+    counted("generators of the action", moving.r(), [&](std::size_t b) {
         Replacements field;
         for (const ColumnEntry& entry : groupoid.left[b]) field.emplace_back(coordinates[entry.index], entry.value);
         const std::vector<NodeId> rates = directional(graph, moved, field);
@@ -76,7 +77,7 @@ StructureReport verify_right_action(const System& moving, const ProofBudget& bud
             if (report.checks.back().decision.status != ProofStatus::proved)
                 report.checks.back().hint = std::exchange(hint, {});
         }
-    }
+    });
     report.verdict = verdict_of(report);
     return report;
 }
@@ -109,12 +110,10 @@ StructureReport verify_symmetry(Graph& graph, const System& whole, const Infinit
 {
     StructureReport report;
     Judge judge(graph, proof_setting(graph, whole), 0, budget);
-    for (std::size_t b = 0; b < action.fields.size(); ++b)
-        report.checks.push_back({"symmetry",
-                                 {names[b]},
-                                 judge.decide(lift_of_function(graph, whole, *whole.lagrangian, action.fields[b])),
-                                 {},
-                                 {}});
+    counted("symmetries of L", action.fields.size(), [&](std::size_t b) {
+        Decision decision = judge.decide(lift_of_function(graph, whole, *whole.lagrangian, action.fields[b]));
+        report.checks.push_back({"symmetry", {names[b]}, std::move(decision), {}, {}});
+    });
     report.verdict = verdict_of(report);
     return report;
 }
@@ -153,7 +152,7 @@ StructureReport verify_quotient(Graph& graph, const System& whole, const Infinit
     setting.variables.insert(setting.variables.end(), quotient.w.begin(), quotient.w.end());
     setting.defined.push_back(graph.divide(graph.constant(1), quotient.determinant));
     Judge judge(graph, setting, 0, budget);
-    for (std::size_t a = 0; a < reduced.r(); ++a) {
+    counted("equations of the quotient", reduced.r(), [&](std::size_t a) {
         NodeId sum = graph.negate(wanted[a]);
         if (a < u.size())
             sum = graph.add(sum, expressions[quotient.free[a]]);
@@ -161,7 +160,7 @@ StructureReport verify_quotient(Graph& graph, const System& whole, const Infinit
             for (const std::size_t i : all)
                 sum = graph.add(sum, graph.multiply(quotient.xi[a - u.size()][i], expressions[i]));
         report.checks.push_back({"projects", {name_of(a)}, judge.decide(sum), {}, {}});
-    }
+    });
     report.verdict = verdict_of(report);
     return report;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/verify_reduction.hpp"
 
+#include "activity.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "mechanics/discrete.hpp"
 #include "mechanics/hamilton.hpp"
@@ -88,8 +89,8 @@ class Reduction {
         const std::vector<NodeId> rates =
             directional(graph_, both_.morphism.base, replacements(from_.algebroid.x, xdot));
         const std::vector<NodeId> wanted = along(target_xdot);
-        for (std::size_t i = 0; i < rates.size(); ++i)
-            decide(form, both_.target_coordinate(i), graph_.subtract(rates[i], wanted[i]));
+        counted(std::string("base coordinates, ") + form, rates.size(),
+                [&](std::size_t i) { decide(form, both_.target_coordinate(i), graph_.subtract(rates[i], wanted[i])); });
     }
 
     void decide_lagrange()
@@ -126,12 +127,13 @@ class Reduction {
         const std::vector<NodeId> ydot = graph_.solve(here.W, here.f, MatrixStructure::symmetric);
         const std::vector<NodeId> moved = applied(graph_, there.W, k, applied(graph_, both_.moving.matrix, k, ydot));
         const bool known = !is_singular(here.hessian);
-        for (std::size_t a = 0; a < k; ++a)
+        counted("accelerations", k, [&](std::size_t a) {
             if (known || graph_.is_zero(moved[a]))
                 decide(form, both_.target_velocity(a), graph_.add(moved[a], rest[a]));
             else
                 leave_open(form, "L of the source is degenerate: its equations do not determine the accelerations",
                            both_.target_velocity(a));
+        });
     }
 
     /// Whether W is proved to be singular everywhere, by one of its blocks.
@@ -160,14 +162,14 @@ class Reduction {
             for (std::size_t c = 0; c < r; ++c) residuals[c].push_back(graph_.subtract(moved[c], here.W[c * r + d]));
         }
         bool all = true;
-        for (std::size_t c = 0; c < r; ++c) {
+        counted("lifts", r, [&](std::size_t c) {
             Decision decision = judge_->decide(graph_.constant(0));
             for (const NodeId residual : residuals[c])
                 if (decision.status == ProofStatus::proved && !graph_.is_zero(residual))
                     decision = judge_->decide(residual);
             all = all && decision.status == ProofStatus::proved;
             paths_.push_back({"paths", {"lifts", both_.velocity(c)}, std::move(decision), {}, {}});
-        }
+        });
         return all;
     }
 
@@ -189,12 +191,10 @@ class Reduction {
         along.set(t, pushed);
         along.set(tdot, directional(graph_, pushed, motion));
         const auto compare = [&](const std::vector<NodeId>& moved, const std::vector<NodeId>& wanted, auto name_of) {
-            for (std::size_t k = 0; k < moved.size(); ++k)
-                paths_.push_back({"paths",
-                                  {"variations", name_of(k)},
-                                  judge_->decide(graph_.subtract(moved[k], wanted[k])),
-                                  {},
-                                  {}});
+            counted("variations", moved.size(), [&](std::size_t k) {
+                Decision decision = judge_->decide(graph_.subtract(moved[k], wanted[k]));
+                paths_.push_back({"paths", {"variations", name_of(k)}, std::move(decision), {}, {}});
+            });
         };
         compare(varied(graph_, from_.algebroid, delta, both_.morphism.base), along(target.x),
                 [&](std::size_t i) { return both_.target_coordinate(i); });
@@ -228,11 +228,11 @@ class Reduction {
         const std::vector<NodeId> drift =
             directional(graph_, both_.pulled(both_.target_momenta()), replacements(from_.algebroid.x, xdot));
         const std::vector<NodeId> moved = both_.pulled(along(there.mudot));
-        for (std::size_t b = 0; b < from_.r(); ++b) {
+        counted(std::string("momenta, ") + form, from_.r(), [&](std::size_t b) {
             NodeId residual = graph_.subtract(graph_.add(drift[b], moved[b]), mudot[b]);
             if (!extra.empty()) residual = graph_.subtract(residual, extra[b]);
             decide(form, graph_.input_name(from_.mu[b]), residual);
-        }
+        });
     }
 
     /// mudot_b has the term -rho_b(psi^B) dH'/du'^B more than the target's: it vanishes where the controls are chosen.
@@ -261,12 +261,12 @@ class Reduction {
             decide(form, both_.target_section(a), graph_.subtract(sections[a], image[a]));
         decide_momenta(form, along, at_pulled(here.xdot), at_pulled(here.mudot), there, extra);
         const std::vector<NodeId> wanted = at_pulled(H.dH_du);
-        for (std::size_t A = 0; A < wanted.size(); ++A) {
+        counted("controls", wanted.size(), [&](std::size_t A) {
             const NodeId u = from_.control->u[A];
             const std::vector<NodeId> rates =
                 directional(graph_, both_.morphism.controls, std::vector{std::pair{u, graph_.constant(1)}});
             decide(form, graph_.input_name(u), graph_.subtract(wanted[A], contraction(graph_, slopes, rates)));
-        }
+        });
     }
 
     void decide_discrete()
@@ -287,13 +287,13 @@ class Reduction {
             substitute(graph_, both_.matrix, replacements(from_.algebroid.x, pair.h.x)); // at t(g) = s(h)
         ArrowDecider decider = both_.arrow_decider(pair, budget_);
         const std::size_t r = from_.r();
-        for (std::size_t b = 0; b < r; ++b) {
+        counted("steps", r, [&](std::size_t b) {
             NodeId residual = DEL[b];
             for (std::size_t c = 0; c < to_.r(); ++c)
                 residual =
                     graph_.subtract(residual, graph_.multiply(matrix[c * r + b], graph_.subtract(plus[c], minus[c])));
             append(form, both_.section(b), decider.decide(residual));
-        }
+        });
     }
 
     /// Functions on the target's arrows at the image of an arrow of the source.

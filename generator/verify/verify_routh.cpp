@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/verify_routh.hpp"
 
+#include "activity.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/calculus/transplant.hpp"
 #include "graph/core/lower.hpp"
@@ -126,16 +127,17 @@ StructureReport verify_routh(Graph& graph, const System& system, const Routhian&
 
     const std::vector<NodeId> forces = system.forces_or_zero(graph);
     const std::vector<NodeId> momenta = substitute(graph, routhian.momenta, level);
-    for (std::size_t k = 0; k < y.size(); ++k) {
+    counted("momenta", y.size(), [&](std::size_t k) {
         const NodeId p = system.mu[routhian.cyclic[k]];
         append("conserved", p, forces[routhian.cyclic[k]]);
         append_at_velocities("momentum", p, graph.subtract(momenta[k], p));
-    }
+    });
     const std::vector<NodeId> whole =
         substitute(graph, euler_lagrange(graph, system, *system.lagrangian, rest, ydot), on_level);
     const std::vector<NodeId> ours = euler_lagrange(graph, system, moved_lagrangian(graph, reduced), rest, ydot);
-    for (std::size_t j = 0; j < rest.size(); ++j)
+    counted("equations of the rest", rest.size(), [&](std::size_t j) {
         append_at_velocities("routh", system.algebroid.y[rest[j]], graph.subtract(whole[j], ours[j]));
+    });
     report.verdict = verdict_of(report);
     return report;
 }

@@ -9,6 +9,7 @@
 #include "support/tolerances.hpp"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -158,6 +159,70 @@ TEST_CASE("a vector without declared Casimirs keeps its length, and a place besi
     for (const char* name : {"x[1]", "x[2]", "x[3]", "w[3]"})
         CHECK(std::abs(hovering["equilibrium"][name].number()) < 1e-12L);
     CHECK(hovering["leaf"].text == "kept");
+}
+
+TEST_CASE("a start that is moved onto constraints stays on the levels of Casimirs that nobody declared")
+{
+    const std::string path = fresh_folder() + "/bowl.toml";
+    write_text(path, R"-([base]
+coordinates = ["x", "y", "z"]
+constraints = ["z - x^2 - y^2"]
+[fibre]
+coordinates = ["w"]
+[algebroid.anchor]
+w = { x = "-y", y = "x" }
+[lagrangian]
+L = "w^2/2"
+[scene.default]
+initial = { x = 3, y = 4, z = 1, w = 0 }
+project = true
+duration = 1
+at = [0]
+)-");
+    const Outcome run = call({"run", path});
+    INFO(run.err);
+    CHECK(run.out == "t,x,y,z,w\n0,0.6,0.8,1,0\n");
+    const json::Value found = linearised({path});
+    CHECK(found["equilibrium"]["z"].number() == 1);
+}
+
+TEST_CASE("drag by the length of a velocity is linearised at rest, and a rub is refused by its name")
+{
+    const std::string folder = fresh_folder();
+    const auto kite = [&](const std::string& force_x, const std::string& force_y) {
+        write_text(folder + "/kite.toml", fmt::format(R"-([parameters]
+d = 0.7
+[base]
+coordinates = ["x", "y"]
+[fibre]
+coordinates = ["v", "w"]
+[algebroid]
+kind = "tangent"
+[lagrangian]
+L = "(v^2 + w^2)/2 - x^2 - y^2/2"
+[forces]
+v = "{}"
+w = "{}"
+[scene.default]
+initial = {{ x = 0.1, y = 0, v = 0, w = 0 }}
+duration = 1
+)-",
+                                                      force_x, force_y));
+        return folder + "/kite.toml";
+    };
+    for (const auto& [x, y] : {std::pair{"-d*v*sqrt(v^2 + w^2)", "-d*w*sqrt(v^2 + w^2)"},
+                               std::pair{"-d*v*norm([v, w])^(1/2)", "-d*w*norm([v, w])^(1/2)"},
+                               std::pair{"-d*abs(v)*v", "-d*w*abs(w)^0.3"}}) {
+        const json::Value found = linearised({kite(x, y)});
+        INFO(x);
+        CHECK(found["certified"].text == "true");
+        for (const std::size_t row : {2U, 3U})
+            for (const std::size_t column : {0U, 1U, 2U, 3U})
+                CHECK(matrix_entry(found["A"], row, column) == (row != column + 2 ? 0 : row == 2 ? -2 : -1));
+    }
+    const Outcome rub = call({"linearize", kite("-d*v/sqrt(v^2 + w^2 + 1) - 2*abs(w)", "0")});
+    CHECK(rub.code == 1);
+    CHECK_THAT(rub.err, Catch::Contains("the rates have no derivatives that are known to be continuous: abs(w) has"));
 }
 
 TEST_CASE("modes add up to the states: lags in a row, hidden instability, chains of integrators")

@@ -81,3 +81,11 @@ TEST_CASE("stages that last are told from the outside in, with what is done of e
     }
     CHECK(lagen::activities_text().empty());
 }
+
+TEST_CASE("what is counted is told one by one")
+{
+    std::vector<std::string> told;
+    lagen::counted("lifts", 2, [&](std::size_t) { told.push_back(lagen::activities_text()); });
+    CHECK(told == std::vector<std::string>{"lifts, 1 of 2", "lifts, 2 of 2"});
+    CHECK(lagen::activities_text().empty());
+}

@@ -119,6 +119,23 @@ TEST_CASE("rotations are smooth at zero")
     }
 }
 
+TEST_CASE("entries that are sines of right angles fold like the numbers that they are")
+{
+    const Scope scope = array_scope();
+    const auto by_calls = [&](const std::string& angle) {
+        return closed_text(
+            scope, fmt::format("[[1, 0, 0], [0, cos({0}), -sin({0})], [0, sin({0}), cos({0})]]*[a, b, c]", angle));
+    };
+    for (const char* angle : {"-pi/2", "-(pi/2)", "3*pi/2", "pi*(3/2)", "-0.5*pi", "7*pi/2"})
+        CHECK(by_calls(angle) == "[a, c, -b]");
+    for (const char* angle : {"pi/2", "5*pi/2", "pi/4*2"}) CHECK(by_calls(angle) == "[a, -c, b]");
+    for (const char* angle : {"0", "2*pi", "0*pi"}) CHECK(by_calls(angle) == "[a, b, c]");
+    CHECK(by_calls("pi") == "[a, -b, -c]");
+    CHECK(closed_text(scope, "[sin(pi/6), cos(2*pi/3), tan(pi/4)]") == "[1/2, -1/2, 1]");
+    for (const char* call : {"tan(pi/2)", "sin(a*pi)", "cos(1)", "sin(pi^2)", "exp(0)"})
+        CHECK(closed_text(scope, call) == call);
+}
+
 TEST_CASE("rotations about a constant axis are written by sine and cosine")
 {
     const Scope scope = array_scope();
