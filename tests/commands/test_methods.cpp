@@ -34,7 +34,8 @@ TEST_CASE("the rows of a run by a method of lagen are those of the program of a 
 {
     const std::string folder = fresh_folder();
     const std::pair<const char*, std::vector<std::string>> asked[] = {{"Rk4", {"--method", "rk4", "--step", "0.01"}},
-                                                                      {"Dop853", {"--method", "dop853"}}};
+                                                                      {"Dop853", {"--method", "dop853"}},
+                                                                      {"Taylor", {"--method", "taylor"}}};
     for (const auto& [type, method] : asked) {
         INFO(type);
         REQUIRE(integrates_compiled(type));
