@@ -12,12 +12,11 @@ namespace {
 void make_object(const std::string& folder, const std::string& name, const std::string& source)
 {
     std::ofstream(folder + name + ".cpp") << source;
-    const Shell made =
-        run_shell("c++ -std=c++20 -O1 -ffp-contract=off -fPIC -shared -fvisibility=hidden "
-                  "-Wall -Wextra -Wpedantic -Wconversion -Werror -I'" LAGEN_SOURCE_DIR
-                  "/runtime/include' -I'" LAGEN_SOURCE_DIR
-                  "/tests' -DEIGEN_MAX_ALIGN_BYTES=16 $(pkg-config --cflags eigen3 | sed s/-I/-isystem/) '" +
-                  folder + name + ".cpp' -o '" + folder + name + ".so'");
+    const Shell made = run_shell(
+        "c++ -std=c++20 -O1 -ffp-contract=off -fPIC -shared -fvisibility=hidden "
+        "-Wall -Wextra -Wpedantic -Wconversion -Werror -I'" LAGEN_SOURCE_DIR "/runtime/include' -I'" LAGEN_SOURCE_DIR
+        "/tests' -DEIGEN_MAX_ALIGN_BYTES=16 $(pkg-config --cflags eigen3 | sed s/-I/-isystem/) '" +
+        folder + name + ".cpp' -o '" + folder + name + ".so'");
     INFO(made.output);
     REQUIRE(made.status == 0);
 }
@@ -80,9 +79,9 @@ TEST_CASE("Taylor's method over compiled models has the bits of their classes, a
         INFO(made.output);
         REQUIRE(made.status == 0);
     }
-    const std::pair<const char*, const char*> models[] = {{"prey", "Prey"},       {"sway", "Swaying"},
+    const std::pair<const char*, const char*> models[] = {{"prey", "Prey"},         {"sway", "Swaying"},
                                                           {"capped", "CappedSway"}, {"falling", "Falling"},
-                                                          {"bounded", "Bounded"}, {"growing", "Growing"}};
+                                                          {"bounded", "Bounded"},   {"growing", "Growing"}};
     for (const auto& [name, type] : models)
         make_object(folder, name,
                     "#include \"lagen/export_model.hpp\"\n#include \"compile/programs/compiled_series_models.hpp\"\n"

@@ -73,11 +73,10 @@ TEST_CASE("Taylor polynomials and their slopes, of any number of functions and a
             }
         const auto all_of = [](const auto& series, int order) {
             std::array<std::array<S, count>, 2> all{}; // sums and slopes
-            detail::polynomial_sums<true>(series, order, S(3))
-                .each([&](auto part, const auto& sum, const auto& slope) {
-                    part.store(all[0], sum);
-                    part.store(all[1], slope);
-                });
+            detail::polynomial_sums<true>(series, order, S(3)).each([&](auto part, const auto& sum, const auto& slope) {
+                part.store(all[0], sum);
+                part.store(all[1], slope);
+            });
             return all;
         };
         for (int order = 2; order <= 9; ++order) {

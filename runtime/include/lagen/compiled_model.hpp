@@ -310,8 +310,8 @@ class CompiledModel {
         if (e[0].empty()) return Status::ok;
         if (series_ == nullptr || series()->*kernel == nullptr || order > series()->highest_order)
             return Status::invalid_input;
-        return status_of((series()->*kernel)(series_->instance.get(), t, s.data(), order, unit, x[0].data(),
-                                             e[0].data()));
+        return status_of(
+            (series()->*kernel)(series_->instance.get(), t, s.data(), order, unit, x[0].data(), e[0].data()));
     }
 
     /// Finds the kernels of all parts.

@@ -180,9 +180,8 @@ class ModelExport {
                                double* x)
     {
         auto& series = *reinterpret_cast<Series<M::dimension>*>(x);
-        return in_units(unit, [&](const auto&... units) {
-            return model(instance).taylor(t, state(s), order, series, units...);
-        });
+        return in_units(
+            unit, [&](const auto&... units) { return model(instance).taylor(t, state(s), order, series, units...); });
     }
 
 // The series of the functions of one kernel along the motion.

@@ -333,7 +333,7 @@ class TaylorStepper {
     detail::ErrorScale<Real> scale_;
     Real error_ = Real(0);
     Real leaves_at_ = Real(0); ///< the part of the last step behind which it is outside the domain, if one was found
-    int asked_; ///< the order that the method names; 0 where it names none
+    int asked_;                ///< the order that the method names; 0 where it names none
     int order_;
     std::array<std::uint32_t, trajectories> phases_{}; ///< of each trajectory
     std::size_t now_ = 0;

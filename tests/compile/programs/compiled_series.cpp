@@ -73,7 +73,8 @@ void compare(const char* name, const M& model, const typename M::State& s, doubl
     const auto asked = requests<typename M::State>(events);
     const auto asked_later = requests<Eigen::VectorXd>(events);
     const auto a = lagen::integrate(model, s, {0.0, end}, method, {.at = at, .events = asked});
-    const auto b = lagen::integrate(compiled, Eigen::VectorXd(s), {0.0, end}, method, {.at = at, .events = asked_later});
+    const auto b =
+        lagen::integrate(compiled, Eigen::VectorXd(s), {0.0, end}, method, {.at = at, .events = asked_later});
     bool same = a.status() == b.status() && a.t == b.t && a.failed_at == b.failed_at && same_bits(a.state, b.state);
     same = same && a.rhs_calls == b.rhs_calls && a.steps == b.steps && a.rejected == b.rejected;
     same = same && a.times == b.times && a.events.size() == b.events.size();
@@ -134,6 +135,7 @@ int main()
     const CompiledModel sway = loaded("sway");
     const std::size_t memory = memory_of_watch(sway, 20);
     std::printf("memory of a watch %s\n", memory > 0 && memory_of_watch(sway, 200) == memory ? "same" : "more");
-    std::printf("without series %s\n",
-                lagen::to_text(lagen::integrate(loaded("without"), Eigen::VectorXd(top), {0.0, 1.0}, Taylor{}).status()));
+    std::printf(
+        "without series %s\n",
+        lagen::to_text(lagen::integrate(loaded("without"), Eigen::VectorXd(top), {0.0, 1.0}, Taylor{}).status()));
 }

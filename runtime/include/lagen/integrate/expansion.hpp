@@ -50,8 +50,7 @@ class Expansion {
         if constexpr (M::dimension == Eigen::Dynamic) {
             motion.resize(static_cast<std::size_t>(s.size()));
             if constexpr (HasEventSeries<M>) events.of.resize(model.events_names.size());
-            if constexpr (HasDomainSeries<M>)
-                domain.of.resize(static_cast<std::size_t>(model.domain(t, s).size()));
+            if constexpr (HasDomainSeries<M>) domain.of.resize(static_cast<std::size_t>(model.domain(t, s).size()));
         }
     }
 
@@ -91,11 +90,9 @@ class Expansion {
     /// That of the series behind this one.
     [[nodiscard]] Real next_unit(const M& model) const noexcept
     {
-        return by_lanes<Real>(
-            [&model](const Number& size, const Number& now) {
-                return size < unbounded() ? unit_near(model, size) : now;
-            },
-            length, unit);
+        return by_lanes<Real>([&model](const Number& size,
+                                       const Number& now) { return size < unbounded() ? unit_near(model, size) : now; },
+                              length, unit);
     }
 
     /// Is time measured in units? Of a compiled model its object tells.

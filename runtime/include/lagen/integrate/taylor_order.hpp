@@ -65,8 +65,8 @@ using SeriesAlong = TaylorSeries<typename M::Scalar, (count != 0 ? count : 1), 8
 template <class M>
 concept HasEventSeries = HasTaylor<M> && detail::event_count<M>()
 != 0 && requires(const M& model, typename M::Scalar t, const typename M::State& s,
-                const TaylorSeries<typename M::Scalar, M::dimension, 8>& x,
-                detail::SeriesAlong<M, detail::event_count<M>()>& e)
+                 const TaylorSeries<typename M::Scalar, M::dimension, 8>& x,
+                 detail::SeriesAlong<M, detail::event_count<M>()>& e)
 {
     model.event_series(t, s, 8, x, e);
 };
@@ -75,8 +75,8 @@ concept HasEventSeries = HasTaylor<M> && detail::event_count<M>()
 template <class M>
 concept HasDomainSeries = HasTaylor<M> && detail::condition_count<M>()
 != 0 && requires(const M& model, typename M::Scalar t, const typename M::State& s,
-                const TaylorSeries<typename M::Scalar, M::dimension, 8>& x,
-                detail::SeriesAlong<M, detail::condition_count<M>()>& e)
+                 const TaylorSeries<typename M::Scalar, M::dimension, 8>& x,
+                 detail::SeriesAlong<M, detail::condition_count<M>()>& e)
 {
     model.domain_series(t, s, 8, x, e);
 };

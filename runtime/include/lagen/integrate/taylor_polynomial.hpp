@@ -168,9 +168,8 @@ class PolynomialSumsLater {
     {
         for (; first + width <= x_[0].size(); first += width)
             PolynomialSums<S, width, with_slope>(SeriesBehind{x_, first}, order_, h_)
-                .each([&]<class Part>(Part, const auto& sum, const auto& slope) __attribute__((always_inline)) {
-                    work(PartBehind<Part>{first}, sum, slope);
-                });
+                .each([&]<class Part>(Part, const auto& sum, const auto& slope)
+                          __attribute__((always_inline)) { work(PartBehind<Part>{first}, sum, slope); });
         if constexpr (width > 1) for_blocks<width / 2>(first, work);
     }
 
