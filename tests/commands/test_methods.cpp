@@ -57,3 +57,15 @@ TEST_CASE("the rows of a run by a method of lagen are those of the program of a 
     }
     CHECK_FALSE(integrates_compiled("Discrete"));
 }
+
+TEST_CASE("functions that begin at 0 are followed in the process as they are in a program", "[run]")
+{
+    const Outcome run =
+        call({"run", "pleiades.toml", "--t-end", "0.3", "--at", "0.3", "--no-second-run", "--format", "json"});
+    REQUIRE(run.code == 0);
+    const json::Value invariants = json::parse(run.out)["invariants"];
+    for (const char* name : {"energy", "momentum[1]", "momentum[2]", "angular_momentum"}) {
+        INFO(name);
+        CHECK(invariants[name]["max_drift"].number() < 1e-9L);
+    }
+}
