@@ -26,6 +26,7 @@ const CommandSyntax compile_syntax{
     {{"output,o", "FILE", "the shared object (required)"},
      {"form", "FORM", "lagrange, hamilton or pontryagin; without it that of the scene, or of the model"},
      {"scene", "NAME", "with the events and the observed expressions of this scene"},
+     {"with", "KERNELS", "kernels beside those that every header has, e.g. taylor,event_series"},
      {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
      {"unchecked", nullptr, "go on although the model is refuted"}}};
 
@@ -63,6 +64,7 @@ ExitCode run_compile(Arguments arguments)
     for (const std::string& warning : warnings_of(checked, request.form))
         write_standard_error(fmt::format("warning: {}\n", warning));
     if (scene) request.scene = &*scene;
+    request.with = split_list(options.get("with"));
     Generated generated = generate(checked, request);
     ProgramText text{std::move(generated.header), model_text(generated.module.name, true)};
     text.options = rounding_options();

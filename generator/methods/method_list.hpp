@@ -2,6 +2,8 @@
 /// The methods of this room by the names of their types; a file a family.
 #pragma once
 
+#include "lagen/taylor.hpp"
+
 #include "methods/any_stepper.hpp"
 
 #include <span>
@@ -9,14 +11,17 @@
 
 namespace lagen {
 
+/// Taylor's method has a loop over steps of its own: it is the one that knows where events change their signs, foresees
+/// its lengths and has dense output of order 30.
 struct ListedMethod {
     const char* type;
-    std::variant<AnyAdaptive, AnyFixed> method;
+    std::variant<AnyAdaptive, AnyFixed, Taylor> method;
 };
 
 [[nodiscard]] std::span<const ListedMethod> fixed_step_methods();
 [[nodiscard]] std::span<const ListedMethod> pair_methods();
 [[nodiscard]] std::span<const ListedMethod> verner_methods();
 [[nodiscard]] std::span<const ListedMethod> nystrom_methods();
+[[nodiscard]] std::span<const ListedMethod> taylor_methods();
 
 } // namespace lagen

@@ -34,7 +34,8 @@ TEST_CASE("the rows of a run by a method of lagen are those of the program of a 
 {
     const std::string folder = fresh_folder();
     const std::pair<const char*, std::vector<std::string>> asked[] = {{"Rk4", {"--method", "rk4", "--step", "0.01"}},
-                                                                      {"Dop853", {"--method", "dop853"}}};
+                                                                      {"Dop853", {"--method", "dop853"}},
+                                                                      {"Taylor", {"--method", "taylor"}}};
     for (const auto& [type, method] : asked) {
         INFO(type);
         REQUIRE(integrates_compiled(type));
@@ -55,4 +56,16 @@ TEST_CASE("the rows of a run by a method of lagen are those of the program of a 
         fs::remove(folder + "/a.csv");
     }
     CHECK_FALSE(integrates_compiled("Discrete"));
+}
+
+TEST_CASE("functions that begin at 0 are followed in the process as they are in a program", "[run]")
+{
+    const Outcome run =
+        call({"run", "pleiades.toml", "--t-end", "0.3", "--at", "0.3", "--no-second-run", "--format", "json"});
+    REQUIRE(run.code == 0);
+    const json::Value invariants = json::parse(run.out)["invariants"];
+    for (const char* name : {"energy", "momentum[1]", "momentum[2]", "angular_momentum"}) {
+        INFO(name);
+        CHECK(invariants[name]["max_drift"].number() < 1e-9L);
+    }
 }

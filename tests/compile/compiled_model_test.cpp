@@ -12,10 +12,11 @@ namespace {
 void make_object(const std::string& folder, const std::string& name, const std::string& source)
 {
     std::ofstream(folder + name + ".cpp") << source;
-    const Shell made =
-        run_shell("c++ -std=c++20 -O1 -ffp-contract=off -fPIC -shared -fvisibility=hidden "
-                  "-Wall -Wextra -Wpedantic -Wconversion -Werror -I'" LAGEN_SOURCE_DIR "/runtime/include' '" +
-                  folder + name + ".cpp' -o '" + folder + name + ".so'");
+    const Shell made = run_shell(
+        "c++ -std=c++20 -O1 -ffp-contract=off -fPIC -shared -fvisibility=hidden "
+        "-Wall -Wextra -Wpedantic -Wconversion -Werror -I'" LAGEN_SOURCE_DIR "/runtime/include' -I'" LAGEN_SOURCE_DIR
+        "/tests' -DEIGEN_MAX_ALIGN_BYTES=16 $(pkg-config --cflags eigen3 | sed s/-I/-isystem/) '" +
+        folder + name + ".cpp' -o '" + folder + name + ".so'");
     INFO(made.output);
     REQUIRE(made.status == 0);
 }
@@ -66,6 +67,44 @@ TEST_CASE("a compiled model has the bits of its header, takes no memory in a ste
                                                                          "memory dop853 0 ok\n"
                                                                          "bits parameters same\n"
                                                                          "nystrom refused not_separable\n");
+}
+
+TEST_CASE("Taylor's method over compiled models has the bits of their classes, and takes no memory in a step")
+{
+    const std::string folder = std::string(LAGEN_BINARY_DIR) + "/compiled/compiled_series/";
+    std::filesystem::create_directories(folder);
+    for (const auto& [name, with] : {std::pair("heavy_top", " --with taylor"), std::pair("without", "")}) {
+        const Shell made = run_shell("'" LAGEN_PROGRAM "' compile '" LAGEN_SOURCE_DIR "/models/heavy_top.toml'" +
+                                     std::string(with) + " -o '" + folder + name + ".so' 2>&1");
+        INFO(made.output);
+        REQUIRE(made.status == 0);
+    }
+    const std::pair<const char*, const char*> models[] = {{"prey", "Prey"},         {"sway", "Swaying"},
+                                                          {"capped", "CappedSway"}, {"falling", "Falling"},
+                                                          {"bounded", "Bounded"},   {"growing", "Growing"}};
+    for (const auto& [name, type] : models)
+        make_object(folder, name,
+                    "#include \"lagen/export_model.hpp\"\n#include \"compile/programs/compiled_series_models.hpp\"\n"
+                    "LAGEN_EXPORT_MODEL(lagen::testing::" +
+                        std::string(type) + ")\n");
+    CHECK(run_on_headers("compiled_series", {"models/heavy_top.toml"}, "--with taylor") ==
+          "heavy_top ok same, 0 events\n"
+          "heavy_top ok same, 0 events\n"
+          "heavy_top ok same, 0 events\n"
+          "prey ok same, 0 events\n"
+          "sway ok same, 18 events\n"
+          "capped ok same, 0 events\n"
+          "capped left_domain same, 0 events\n"
+          "falling ok same, 0 events\n"
+          "falling non_finite same, 0 events\n"
+          "bounded left_domain same, 0 events\n"
+          "growing ok same, 0 events\n"
+          "memory heavy_top 0 ok\n"
+          "memory sway 0 ok\n"
+          "memory capped 0 ok\n"
+          "memory bounded 0 ok\n"
+          "memory of a watch same\n"
+          "without series invalid_input\n");
 }
 
 TEST_CASE("what cannot be compiled as a shared object is refused with a sentence")

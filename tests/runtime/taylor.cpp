@@ -64,15 +64,25 @@ TEST_CASE("Taylor polynomials and their slopes, of any number of functions and a
 {
     const auto check = []<class S, int count>(S, std::integral_constant<int, count>) {
         TaylorSeries<S, count, 9> x;
+        TaylorSeries<S, -1, 9> later;
+        later.resize(static_cast<std::size_t>(count));
         for (int k = 0; k <= 9; ++k)
-            for (int i = 0; i < count; ++i) x[k][static_cast<std::size_t>(i)] = S((5 * k + 3 * i) % 11 - 5);
+            for (int i = 0; i < count; ++i) {
+                const auto place = static_cast<std::size_t>(i);
+                later[k][place] = x[k][place] = S((5 * k + 3 * i) % 11 - 5);
+            }
+        const auto all_of = [](const auto& series, int order) {
+            std::array<std::array<S, count>, 2> all{}; // sums and slopes
+            detail::polynomial_sums<true>(series, order, S(3)).each([&](auto part, const auto& sum, const auto& slope) {
+                part.store(all[0], sum);
+                part.store(all[1], slope);
+            });
+            return all;
+        };
         for (int order = 2; order <= 9; ++order) {
-            std::array<S, count> sums{}, slopes{};
-            detail::PolynomialSums<S, count, true>(x, order, S(3))
-                .each([&]<class Part>(Part, const auto& sum, const auto& slope) {
-                    Part::store(sums, sum);
-                    Part::store(slopes, slope);
-                });
+            const auto [sums, slopes] = all_of(x, order);
+            REQUIRE(all_of(later, order)[0] == sums);
+            REQUIRE(all_of(later, order)[1] == slopes);
             for (std::size_t i = 0; i < count; ++i) {
                 S sum = S(0), slope = S(0), power = S(1); // of whole numbers: exact
                 for (int k = 1; k <= order; ++k, power *= S(3)) {

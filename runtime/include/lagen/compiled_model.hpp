@@ -217,6 +217,31 @@ class CompiledModel {
     {
         return series_ == nullptr ? nullptr : &series_->table->series;
     }
+    [[nodiscard]] int taylor_sums() const noexcept { return series_ == nullptr ? 0 : series()->sums; }
+    [[nodiscard]] bool takes_unit() const noexcept { return series_ != nullptr && series()->has_unit != 0; }
+
+    /// As the kernel contract has them; invalid_input where the object has none, or none of this order.
+    template <int most>
+    [[nodiscard]] Status taylor(double t, const State& s, int order, TaylorSeries<double, Eigen::Dynamic, most>& x,
+                                double unit = 1) const noexcept
+    {
+        if (series_ == nullptr || order > series()->highest_order) return Status::invalid_input;
+        return status_of(series()->motion(series_->instance.get(), t, s.data(), order, unit, x[0].data()));
+    }
+    template <int most>
+    [[nodiscard]] Status event_series(double t, const State& s, int order,
+                                      const TaylorSeries<double, Eigen::Dynamic, most>& x,
+                                      TaylorSeries<double, Eigen::Dynamic, most>& e, double unit = 1) const noexcept
+    {
+        return along(&lagen_series::events, t, s, order, x, e, unit);
+    }
+    template <int most>
+    [[nodiscard]] Status domain_series(double t, const State& s, int order,
+                                       const TaylorSeries<double, Eigen::Dynamic, most>& x,
+                                       TaylorSeries<double, Eigen::Dynamic, most>& e, double unit = 1) const noexcept
+    {
+        return along(&lagen_series::domain, t, s, order, x, e, unit);
+    }
 
   private:
     struct Part {
@@ -278,6 +303,18 @@ class CompiledModel {
         evaluate(at, t, s);
         return {at.values.data(), at.function == nullptr ? 0 : at.function->rows,
                 at.function == nullptr ? 0 : at.function->columns};
+    }
+
+    /// The series of functions along the motion, those of which there are none included.
+    template <class Kernel, class Series>
+    [[nodiscard]] Status along(Kernel kernel, double t, const State& s, int order, const Series& x, Series& e,
+                               double unit) const noexcept
+    {
+        if (e[0].empty()) return Status::ok;
+        if (series_ == nullptr || series()->*kernel == nullptr || order > series()->highest_order)
+            return Status::invalid_input;
+        return status_of(
+            (series()->*kernel)(series_->instance.get(), t, s.data(), order, unit, x[0].data(), e[0].data()));
     }
 
     /// Finds the kernels of all parts.

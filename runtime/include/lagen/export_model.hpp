@@ -161,11 +161,16 @@ class ModelExport {
     template <int count>
     using Series = TaylorSeries<double, count, highest>;
 
+    static constexpr bool has_unit = requires(const M& m, const State& s, Series<M::dimension>& x)
+    {
+        m.taylor(0.0, s, 8, x, 1.0);
+    };
+
     /// call(unit), or call() where the kernels have none.
     template <class Call>
     static std::int32_t in_units(double unit, const Call& call)
     {
-        if constexpr (requires { call(unit); })
+        if constexpr (has_unit)
             return number(call(unit));
         else
             return number(call());
@@ -176,10 +181,7 @@ class ModelExport {
     {
         auto& series = *reinterpret_cast<Series<M::dimension>*>(x);
         return in_units(
-            unit,
-            [&](const auto&... units) requires requires {
-                model(instance).taylor(t, state(s), order, series, units...);
-            } { return model(instance).taylor(t, state(s), order, series, units...); });
+            unit, [&](const auto&... units) { return model(instance).taylor(t, state(s), order, series, units...); });
     }
 
 // The series of the functions of one kernel along the motion.
@@ -189,11 +191,9 @@ class ModelExport {
     {                                                                                                                  \
         const auto& series = *reinterpret_cast<const Series<M::dimension>*>(x);                                        \
         auto& along = *reinterpret_cast<Series<COUNT<M>()>*>(e);                                                       \
-        return in_units(                                                                                               \
-            unit,                                                                                                      \
-            [&](const auto&... units) requires requires {                                                              \
-                model(instance).KERNEL(t, state(s), order, series, along, units...);                                   \
-            } { return model(instance).KERNEL(t, state(s), order, series, along, units...); });                        \
+        return in_units(unit, [&](const auto&... units) {                                                              \
+            return model(instance).KERNEL(t, state(s), order, series, along, units...);                                \
+        });                                                                                                            \
     }
     LAGEN_SERIES_ALONG(events_along, event_series, event_count)
     LAGEN_SERIES_ALONG(domain_along, domain_series, condition_count)
@@ -203,10 +203,7 @@ class ModelExport {
     {
         if constexpr (HasTaylor<M>) {
             series.highest_order = highest;
-            series.has_unit = requires(const M& m, const State& s, Series<M::dimension>& x)
-            {
-                m.taylor(0.0, s, 8, x, 1.0);
-            };
+            series.has_unit = has_unit;
             if constexpr (requires { M::taylor_sums; }) series.sums = M::taylor_sums;
             series.motion = motion;
             if constexpr (HasEventSeries<M>) series.events = events_along;

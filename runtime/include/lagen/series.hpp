@@ -11,8 +11,10 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <span>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace lagen {
 
@@ -24,6 +26,39 @@ struct TaylorSeries {
 
     [[nodiscard]] Row& operator[](int k) noexcept { return rows[static_cast<std::size_t>(k)]; }
     [[nodiscard]] const Row& operator[](int k) const noexcept { return rows[static_cast<std::size_t>(k)]; }
+    /// A row for what is made of the coefficients for a while; a series has one.
+    struct SpareRow : Row {
+        explicit SpareRow(const TaylorSeries&) noexcept {}
+    };
+};
+
+/// The same of n functions where n is known at run time, at the same places: k n + i. `resize` takes the memory, that
+/// of the spare row too.
+template <class S, int most>
+class TaylorSeries<S, -1, most> {
+  public:
+    using Row = std::vector<S>;
+
+    void resize(std::size_t functions)
+    {
+        functions_ = functions;
+        numbers_.assign((static_cast<std::size_t>(most) + 2) * functions, S(0));
+    }
+    [[nodiscard]] std::span<S> operator[](int k) noexcept
+    {
+        return {numbers_.data() + static_cast<std::size_t>(k) * functions_, functions_};
+    }
+    [[nodiscard]] std::span<const S> operator[](int k) const noexcept
+    {
+        return {numbers_.data() + static_cast<std::size_t>(k) * functions_, functions_};
+    }
+    struct SpareRow : std::span<S> {
+        explicit SpareRow(TaylorSeries& x) noexcept : std::span<S>(x[most + 1]) {}
+    };
+
+  private:
+    std::size_t functions_ = 0;
+    std::vector<S> numbers_;
 };
 
 namespace detail {

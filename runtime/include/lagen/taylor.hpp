@@ -43,13 +43,20 @@ class TaylorStepper {
 
     template <class Method>
     explicit TaylorStepper(const Method& method) noexcept
-        : control_(method.control()), scale_(control_), order_(order_of(method))
+        : control_(method.control()), scale_(control_), asked_(method.order), order_(order_of(known_sums))
     {
     }
 
     Status begin(const M& model, Real t, const State& s) noexcept
     {
-        lost_.fill(Real(0));
+        for (Expansion& each : expansions_) each.begin(model, t, s);
+        if constexpr (M::dimension == Eigen::Dynamic) {
+            lost_.resize(static_cast<std::size_t>(s.size()));
+            begins_ = {t, s};
+            inside_ = s;
+            order_ = order_of(model.taylor_sums());
+        }
+        std::ranges::fill(lost_, Real(0));
         kept_ = lost_;
         here().unit = first_unit(model, t, s);
         const Status status = expand(model, t, s, here());
@@ -72,29 +79,29 @@ class TaylorStepper {
     /// Equations with kinks are refused by the generator: a kink that is crossed twice in a step leaves no trace there.
     status_t<Scalar> attempt(const M& model, Real t, const State& s, Real h, State& s1) noexcept
     {
-        const Series& x = here().motion;
+        Series& x = here().motion;
         const Real step = h / here().unit;
-        if constexpr (HasDomain<M>) begins_ = {t, s};
+        if constexpr (HasDomain<M>) begins_.first = t, begins_.second = s;
         leaves_at_ = Real(0);
-        Row slope;
-        detail::PolynomialSums<Real, lanes, true>(x, order_, step)
-            .each([&]<class Part>(Part, const auto& move, const auto& sloping) __attribute__((always_inline)) {
+        typename Series::SpareRow slope(x);
+        detail::polynomial_sums<true>(x, order_, step)
+            .each([&]<class Part>(Part part, const auto& move, const auto& sloping) __attribute__((always_inline)) {
                 using Register = typename Part::Register;
-                const Register change = step * move + Part::load(kept_);
-                const Register from = Part::load(s), end = from + change;
+                const Register change = step * move + part.load(kept_);
+                const Register from = part.load(s), end = from + change;
                 const Register moved = end - from; // exact whichever of the two is larger [Knuth 1997, 4.2.2]
-                Part::store(s1, end);
-                Part::store(lost_, (from - (end - moved)) + (change - moved));
-                Part::store(slope, sloping);
+                part.store(s1, end);
+                part.store(lost_, (from - (end - moved)) + (change - moved));
+                part.store(slope, sloping);
             });
-        next().unit = here().next_unit();
+        next().unit = here().next_unit(model);
         auto status = expand(model, t + h, s1, next());
         if (Expansion::fails(status)) return status;
         status = Lanes::first(status, detail::check_finite(s1));
         if (Expansion::fails(status)) return status;
         error_ = Real(0);
         const Real epsilon = Real(std::numeric_limits<Number>::epsilon()), change_of_unit = h / next().unit;
-        for (std::size_t i = 0; i < lanes; ++i) {
+        for (std::size_t i = 0; i < slope.size(); ++i) {
             const auto lane = static_cast<Eigen::Index>(i);
             const Real rate = change_of_unit * next().motion[1][i];
             const Real bound = scale_.template of<1>(s, s1, lane) +
@@ -162,11 +169,10 @@ class TaylorStepper {
         return h * (known ? leaves_at_ : Real(0.5));
     }
 
-    [[nodiscard]] State derivative() const noexcept
+    [[nodiscard]] auto derivative() const noexcept
     {
-        State rate;
-        for (std::size_t i = 0; i < lanes; ++i) rate[static_cast<Eigen::Index>(i)] = here().motion[1][i] / here().unit;
-        return rate;
+        const auto& slopes = here().motion[1];
+        return Eigen::Map<const State>(slopes.data(), static_cast<Eigen::Index>(slopes.size())) / here().unit;
     }
 
     /// The polynomial.
@@ -174,9 +180,9 @@ class TaylorStepper {
     {
         const Series& x = here().motion;
         const Real step = theta * h / here().unit;
-        detail::PolynomialSums<Real, lanes, false>(x, order_, step)
-            .each([&]<class Part>(Part, const auto& move, const auto&) __attribute__((always_inline)) {
-                Part::store(out, Part::load(s) + (step * move + Part::load(kept_)));
+        detail::polynomial_sums<false>(x, order_, step)
+            .each([&]<class Part>(Part part, const auto& move, const auto&) __attribute__((always_inline)) {
+                part.store(out, part.load(s) + (step * move + part.load(kept_)));
             });
         return detail::check_finite(out);
     }
@@ -209,7 +215,7 @@ class TaylorStepper {
     {
         scale_.set_lane(lane, own.scale_);
         here().set_lane(lane, own.here(), order_);
-        for (std::size_t i = 0; i < lanes; ++i) kept_[i].set(lane, own.kept_[i]);
+        for (std::size_t i = 0; i < kept_.size(); ++i) kept_[i].set(lane, own.kept_[i]);
         phases_[static_cast<std::size_t>(lane)] = own.phases_[0];
     }
 
@@ -218,7 +224,7 @@ class TaylorStepper {
     void hand_over(int lane, TaylorStepper<One>& own) const noexcept requires(is_pack<Scalar>)
     {
         here().get_lane(lane, own.here(), order_);
-        for (std::size_t i = 0; i < lanes; ++i) own.kept_[i] = kept_[i][lane];
+        for (std::size_t i = 0; i < kept_.size(); ++i) own.kept_[i] = kept_[i][lane];
     }
     template <class One>
     void hand_over_length(int lane, TaylorStepper<One>& own) const noexcept requires(is_pack<Scalar>)
@@ -230,7 +236,7 @@ class TaylorStepper {
     /// The step counts in these lanes.
     void accept(const typename StatusOf<Scalar>::mask& where) noexcept requires(is_pack<Scalar>)
     {
-        for (std::size_t i = 0; i < lanes; ++i) kept_[i] = select(where, lost_[i], kept_[i]);
+        for (std::size_t i = 0; i < kept_.size(); ++i) kept_[i] = select(where, lost_[i], kept_[i]);
         now_ = 1 - now_;
         if (!all(where)) here().choose(where, next(), order_);
     }
@@ -239,23 +245,23 @@ class TaylorStepper {
     template <class>
     friend class TaylorStepper;
     using Lanes = StatusOf<Scalar>;
-    static constexpr auto lanes = static_cast<std::size_t>(M::dimension);
     static constexpr auto trajectories = static_cast<std::size_t>(RealOf<Scalar>::lanes); ///< abreast
     using Expansion = detail::Expansion<M, highest_order>;
     using Series = typename Expansion::Series;
     using Row = typename Series::Row;
+    static constexpr int known_sums = [] {
+        if constexpr (requires { std::integral_constant<int, M::taylor_sums>(); }) return M::taylor_sums;
+        return 0; // a compiled model tells it at run time
+    }();
     static Number unbounded() noexcept { return Expansion::unbounded(); }
 
-    template <class Method>
-    static int order_of(const Method& method) noexcept
+    /// Of a model with so many sums a series.
+    [[nodiscard]] int order_of(int sums) const noexcept
     {
-        if (method.order > 0) return std::clamp(method.order, 2, highest_order);
-        const StepControl control = method.control();
-        const double tolerance = control.relative_tolerance();
-        const double logarithm = -std::log(tolerance > 0 ? tolerance : control.absolute_tolerance());
+        if (asked_ > 0) return std::clamp(asked_, 2, highest_order);
+        const double tolerance = control_.relative_tolerance();
+        const double logarithm = -std::log(tolerance > 0 ? tolerance : control_.absolute_tolerance());
         if (!std::isfinite(logarithm)) return highest_order; // integrate refuses such tolerances
-        int sums = 0;
-        if constexpr (requires { M::taylor_sums; }) sums = M::taylor_sums;
         return std::clamp(detail::taylor_order<Number>(logarithm, sums), 3, highest_order);
     }
 
@@ -267,13 +273,14 @@ class TaylorStepper {
     [[nodiscard]] Real first_unit(const M& model, const Real& t, const State& s) noexcept
     {
         if constexpr (Expansion::has_unit) {
+            if (!Expansion::takes_unit(model)) return Real(1);
             State rate = s;
             ++calls_;
             if (model.rhs(t, s, rate) != Status::ok) return Real(1);
             Real size = Real(0), speed = Real(0);
             for (Eigen::Index lane = 0; lane < s.size(); ++lane)
                 size += detail::size_of(s[lane]), speed += detail::size_of(rate[lane]);
-            return Expansion::unit_near(size / speed);
+            return Expansion::unit_near(model, size / speed);
         }
         return Real(1);
     }
@@ -306,10 +313,10 @@ class TaylorStepper {
         }
         if (std::ranges::find(which, true) == which.end()) return;
         const auto& [t, s] = begins_;
-        State inside = s1;
-        auto there = interpolate(model, t, s, t1 - t, s1, Real(theta), inside);
+        inside_ = s1;
+        auto there = interpolate(model, t, s, t1 - t, s1, Real(theta), inside_);
         if (!Expansion::fails(there))
-            there = Lanes::first(there, detail::domain_status(model, t + Real(theta) * (t1 - t), inside));
+            there = Lanes::first(there, detail::domain_status(model, t + Real(theta) * (t1 - t), inside_));
         for (int lane = 0; lane < static_cast<int>(trajectories); ++lane) {
             if (!which[static_cast<std::size_t>(lane)]) continue;
             const Status found = detail::lane_of(there, lane);
@@ -321,10 +328,12 @@ class TaylorStepper {
     std::array<Expansion, 2> expansions_; ///< at the beginning of the step, and at its end
     Row kept_, lost_;
     std::pair<Real, State> begins_; ///< the last step that was tried, where the model has a domain
+    State inside_;                  ///< at a place inside it
     StepControl control_;
     detail::ErrorScale<Real> scale_;
     Real error_ = Real(0);
     Real leaves_at_ = Real(0); ///< the part of the last step behind which it is outside the domain, if one was found
+    int asked_;                ///< the order that the method names; 0 where it names none
     int order_;
     std::array<std::uint32_t, trajectories> phases_{}; ///< of each trajectory
     std::size_t now_ = 0;

@@ -41,8 +41,10 @@ class Figures {
     {
         if (!begun_) [[unlikely]]
             begin(model, t, s);
+        // Values of a compiled model stand until the next ones are asked for, which `watch` may do.
         std::size_t next = 0;
-        visit_watched(model, t, s, work_, [&](double value) { watch(model, next++, t, value); });
+        visit_watched(model, t, s, work_, [&](double value) { seen_[next++] = value; });
+        for (std::size_t k = 0; k < watched_; ++k) watch(model, k, t, seen_[k]);
         if (means_.wants()) look(model, t, s);
     }
 

@@ -44,6 +44,16 @@ class Expansion {
     Real length = Real(0); ///< for which the series hold; `unbounded` where they are polynomials
     Real unit = Real(1);
 
+    /// Takes the memory where a number of functions is known at run time.
+    void begin([[maybe_unused]] const M& model, [[maybe_unused]] const Real& t, [[maybe_unused]] const State& s)
+    {
+        if constexpr (M::dimension == Eigen::Dynamic) {
+            motion.resize(static_cast<std::size_t>(s.size()));
+            if constexpr (HasEventSeries<M>) events.of.resize(model.events_names.size());
+            if constexpr (HasDomainSeries<M>) domain.of.resize(static_cast<std::size_t>(model.domain(t, s).size()));
+        }
+    }
+
     /// Of a scalar it ends where it fails.
     status_t<Real> expand(const M& model, const Real& t, const State& s, int order,
                           const ErrorScale<Real>& scale) noexcept
@@ -71,18 +81,25 @@ class Expansion {
     static bool fails(const status_t<Real>& status) noexcept { return !is_pack<Real> && !Lanes::all_good(status); }
 
     /// The power of two below a length, for the series behind it.
-    [[nodiscard]] static Number unit_near(const Number& size) noexcept
+    [[nodiscard]] static Number unit_near(const M& model, const Number& size) noexcept
     {
-        if (!has_unit || !(size > Number(0)) || !(size < unbounded())) return Number(1);
+        if (!takes_unit(model) || !(size > Number(0)) || !(size < unbounded())) return Number(1);
         constexpr double most = std::min(1000, static_cast<int>(std::numeric_limits<Number>::max_exponent) - 8);
         return rough_power_of_two<Number>(std::clamp(std::floor(rough_logarithm(size)), -most, most));
     }
     /// That of the series behind this one.
-    [[nodiscard]] Real next_unit() const noexcept
+    [[nodiscard]] Real next_unit(const M& model) const noexcept
     {
-        return by_lanes<Real>(
-            [](const Number& size, const Number& now) { return size < unbounded() ? unit_near(size) : now; }, length,
-            unit);
+        return by_lanes<Real>([&model](const Number& size,
+                                       const Number& now) { return size < unbounded() ? unit_near(model, size) : now; },
+                              length, unit);
+    }
+
+    /// Is time measured in units? Of a compiled model its object tells.
+    [[nodiscard]] static bool takes_unit([[maybe_unused]] const M& model) noexcept
+    {
+        if constexpr (requires { model.takes_unit(); }) return model.takes_unit();
+        return has_unit;
     }
 
     /// found(end), for one function after another, for the ends, ascending, of parts of (0, last] in units of h in each

@@ -32,11 +32,16 @@ concept HasTaylor = requires(const M& model, typename M::Scalar t, const typenam
 
 namespace detail {
 
+/// How many functions there are; Eigen::Dynamic where that is known at run time.
 template <class M>
 constexpr int event_count() noexcept
 {
-    if constexpr (requires { M::events_names; }) return static_cast<int>(M::events_names.size());
-    return 0;
+    if constexpr (M::dimension == Eigen::Dynamic)
+        return HasEvents<M> ? Eigen::Dynamic : 0;
+    else if constexpr (requires { M::events_names; })
+        return static_cast<int>(M::events_names.size());
+    else
+        return 0;
 }
 
 template <class M>
@@ -52,16 +57,16 @@ constexpr int condition_count() noexcept
 }
 
 template <class M, int count>
-using SeriesAlong = TaylorSeries<typename M::Scalar, (count > 0 ? count : 1), 8>;
+using SeriesAlong = TaylorSeries<typename M::Scalar, (count != 0 ? count : 1), 8>;
 
 } // namespace detail
 
 /// And with those of its events along the motion: `--with taylor,event_series`.
 template <class M>
 concept HasEventSeries = HasTaylor<M> && detail::event_count<M>()
-> 0 && requires(const M& model, typename M::Scalar t, const typename M::State& s,
-                const TaylorSeries<typename M::Scalar, M::dimension, 8>& x,
-                detail::SeriesAlong<M, detail::event_count<M>()>& e)
+!= 0 && requires(const M& model, typename M::Scalar t, const typename M::State& s,
+                 const TaylorSeries<typename M::Scalar, M::dimension, 8>& x,
+                 detail::SeriesAlong<M, detail::event_count<M>()>& e)
 {
     model.event_series(t, s, 8, x, e);
 };
@@ -69,9 +74,9 @@ concept HasEventSeries = HasTaylor<M> && detail::event_count<M>()
 /// And with those of the conditions of its domain, which a header with `taylor` has where they have no kinks.
 template <class M>
 concept HasDomainSeries = HasTaylor<M> && detail::condition_count<M>()
-> 0 && requires(const M& model, typename M::Scalar t, const typename M::State& s,
-                const TaylorSeries<typename M::Scalar, M::dimension, 8>& x,
-                detail::SeriesAlong<M, detail::condition_count<M>()>& e)
+!= 0 && requires(const M& model, typename M::Scalar t, const typename M::State& s,
+                 const TaylorSeries<typename M::Scalar, M::dimension, 8>& x,
+                 detail::SeriesAlong<M, detail::condition_count<M>()>& e)
 {
     model.domain_series(t, s, 8, x, e);
 };
@@ -183,9 +188,9 @@ struct TaylorLength {
     /// The longest h with |x_k| h^k within the tolerance in every lane, for two of the last four orders; without a
     /// bound where these are 0, as those of a polynomial are.
     template <class State, class Series>
-    [[nodiscard]] Scalar of_motion(const State& s, const Series& x) const noexcept
+    [[nodiscard]] Scalar of_motion(const State& s, Series& x) const noexcept
     {
-        auto inverse = x[0];
+        typename Series::SpareRow inverse(x);
         for (std::size_t i = 0; i < inverse.size(); ++i)
             inverse[i] = Scalar(1) / scale.template of<1>(s, s, static_cast<Eigen::Index>(i));
         std::array<Scalar, 4> largest{Scalar(0), Scalar(0), Scalar(0), Scalar(0)};

@@ -2,12 +2,14 @@
 /// Values of Taylor polynomials, several functions in a vector register.
 #pragma once
 
+#include "lagen/lanes/lanes.hpp"
 #include "lagen/series.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstring>
+#include <span>
 #include <type_traits>
 
 namespace lagen::detail {
@@ -116,5 +118,75 @@ class PolynomialSums {
     Register high_, low_, high_slope_{}, low_slope_{};
     [[no_unique_address]] typename std::conditional_t<has_rest, Rest, NoRest>::type rest_;
 };
+
+/// The same of as many functions as the series has at run time: of four registers of them at a time, then of half as
+/// many, .., of one function. A sum has the same bits in every way.
+template <class S, bool with_slope, class Series>
+class PolynomialSumsLater {
+  public:
+    [[gnu::always_inline]] PolynomialSumsLater(const Series& x, int order, const S& h) noexcept
+        : x_(x), order_(order), h_(h)
+    {
+    }
+
+    template <class Work>
+    [[gnu::always_inline]] void each(const Work& work) const noexcept
+    {
+        for_blocks<4 * register_lanes<S>>(0, work);
+    }
+
+  private:
+    /// The series of the functions from `first` on, and a part of the lanes from there on.
+    struct SeriesBehind {
+        const Series& x;
+        std::size_t first;
+        [[nodiscard]] [[gnu::always_inline]] LanePlace<const S> operator[](int k) const noexcept
+        {
+            return {x[k].data() + first};
+        }
+    };
+    template <class Part>
+    struct PartBehind {
+        using Register = typename Part::Register;
+        std::size_t first;
+
+        template <class Lanes>
+        [[nodiscard]] [[gnu::always_inline]] Register load(const Lanes& lanes) const noexcept
+        {
+            return Part::load(LanePlace<const S>{lanes.data() + first});
+        }
+        template <class Lanes>
+        [[gnu::always_inline]] void store(Lanes& lanes, const Register& from) const noexcept
+        {
+            LanePlace<S> place{lanes.data() + first};
+            Part::store(place, from);
+        }
+    };
+
+    template <std::size_t width, class Work>
+    [[gnu::always_inline]] void for_blocks(std::size_t first, const Work& work) const noexcept
+    {
+        for (; first + width <= x_[0].size(); first += width)
+            PolynomialSums<S, width, with_slope>(SeriesBehind{x_, first}, order_, h_)
+                .each([&]<class Part>(Part, const auto& sum, const auto& slope)
+                          __attribute__((always_inline)) { work(PartBehind<Part>{first}, sum, slope); });
+        if constexpr (width > 1) for_blocks<width / 2>(first, work);
+    }
+
+    const Series& x_;
+    int order_;
+    S h_;
+};
+
+/// Those of the functions of a series.
+template <bool with_slope, class S, int n, int most>
+[[nodiscard]] [[gnu::always_inline]] inline auto polynomial_sums(const TaylorSeries<S, n, most>& x, int order,
+                                                                 const S& h) noexcept
+{
+    if constexpr (n < 0)
+        return PolynomialSumsLater<S, with_slope, TaylorSeries<S, n, most>>(x, order, h);
+    else
+        return PolynomialSums<S, static_cast<std::size_t>(n), with_slope>(x, order, h);
+}
 
 } // namespace lagen::detail
