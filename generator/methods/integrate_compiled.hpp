@@ -8,14 +8,21 @@
 
 #include <csignal>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace lagen {
 
-/// Is there such a method for compiled models? `type` is the runtime's, "Dop853"; methods whose structure is in types
-/// (groups, discrete motions, exact flows) are compiled with their model.
-[[nodiscard]] bool integrates_compiled(const std::string& type);
+/// What a method asks of a compiled model besides its right-hand side.
+struct KernelsAsked {
+    bool jacobian = false, packs = false;
+};
+
+/// Is there such a method for compiled models, and what does it ask of them? Empty where there is none. `type` is the
+/// runtime's, "Dop853"; methods whose structure is in types (groups, discrete motions, exact flows) are compiled with
+/// their model.
+[[nodiscard]] std::optional<KernelsAsked> integrates_compiled(const std::string& type);
 
 /// What a run left besides its rows.
 struct CompiledRun {
@@ -25,8 +32,8 @@ struct CompiledRun {
     bool interrupted = false;
 };
 
-/// The run that `given` asks for, over the compiled model of this path, with a method for which integrates_compiled is
-/// true. The rows go to `rows`, one after another; a signal that is not zero ends the run. (Names of the runtime stay
+/// The run that `given` asks for, over the compiled model of this path, with a method that integrates_compiled
+/// finds. The rows go to `rows`, one after another; a signal that is not zero ends the run. (Names of the runtime stay
 /// out of here: some are those of other things in the rooms around.)
 [[nodiscard]] CompiledRun integrate_compiled(const std::string& path, const std::string& type,
                                              const detail::DriveArguments& given,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "methods/any_stepper.hpp"
+#include "methods/integrate_compiled.hpp"
 
 #include <span>
 #include <variant>
@@ -12,11 +13,13 @@ namespace lagen {
 struct ListedMethod {
     const char* type;
     std::variant<AnyAdaptive, AnyFixed> method;
+    KernelsAsked asks{};
 };
 
 [[nodiscard]] std::span<const ListedMethod> fixed_step_methods();
 [[nodiscard]] std::span<const ListedMethod> pair_methods();
 [[nodiscard]] std::span<const ListedMethod> verner_methods();
 [[nodiscard]] std::span<const ListedMethod> nystrom_methods();
+[[nodiscard]] std::span<const ListedMethod> implicit_methods();
 
 } // namespace lagen

@@ -136,7 +136,8 @@ class CompiledModel {
         return status_of(rhs_(instance_, t, s.data(), ds.data()));
     }
 
-    /// The same of `width` states at once, 4 or 8, as lagen/compiled_model.h says; takes_packs() tells whether it is there.
+    /// The same of `width` states at once, 4 or 8, as lagen/compiled_model.h says; takes_packs() tells whether it is
+    /// there.
     [[nodiscard]] bool takes_packs() const noexcept { return parts_.front().table->rhs8 != nullptr; }
     template <int width>
     void rhs_of_packs(const double* t, const double* s, double* ds, std::uint8_t* status) const noexcept

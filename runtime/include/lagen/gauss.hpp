@@ -106,11 +106,12 @@ class CollocationStepper {
     }
 
     /// What the polynomial of the last step has more than its beginning.
-    void polynomial(const Real& theta, State& out) const noexcept
+    bool polynomial(const Real& theta, State& out) const noexcept
     {
         Weights weights;
         detail::collocation_weights(equations_.method().c, theta, weights);
         combine(weights, out);
+        return true;
     }
 
     [[nodiscard]] std::size_t calls() const noexcept { return equations_.calls; }

@@ -129,8 +129,8 @@ constexpr bool is_narrow(const BandOrder<n>& band) noexcept
     return band.size() > 8 && 4 * band.width < band.size();
 }
 
-/// As MatrixLu, of a matrix whose entries (i, j) the order has inside its band, a BandOrder or a KnownBand. Exchanges of
-/// rows make the upper triangle twice as wide.
+/// As MatrixLu, of a matrix whose entries (i, j) the order has inside its band, a BandOrder or a KnownBand. Exchanges
+/// of rows make the upper triangle twice as wide.
 template <class Entry, class Band>
 class BandLu {
     static constexpr std::size_t size = Band::known_size;

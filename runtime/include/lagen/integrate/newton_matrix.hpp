@@ -145,7 +145,7 @@ class MatrixLu {
     }
 
     template <class Number>
-    void solve(Number n, Entry* b) const noexcept
+    [[gnu::always_inline]] void solve(Number n, Entry* b) const noexcept
     {
         const auto lu = [first = lu_.data(), n](std::size_t i, std::size_t j) { return first[i * n + j]; };
         for (std::size_t k = 0; k + 1 < n; ++k)

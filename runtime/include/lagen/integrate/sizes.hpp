@@ -58,8 +58,8 @@ void make_numbers(std::vector<T>& numbers, std::size_t count, const std::type_id
     numbers.assign(count, value);
 }
 
-/// f(n) with n = `size` as a constant where the type has it or where it is small, so that loops up to n are written out;
-/// else as a number.
+/// f(n) with n = `size` as a constant where the type has it or where it is small, so that loops up to n are written
+/// out; else as a number.
 template <std::size_t size, class Function>
 [[gnu::always_inline]] inline decltype(auto) with_constant(const Size<size>& n, const Function& f) noexcept
 {

@@ -218,10 +218,7 @@ class StageEquations {
         return sum;
     }
 
-    [[nodiscard]] static auto& at(auto& w, Eigen::Index lane) noexcept
-    {
-        return w[static_cast<std::size_t>(lane)];
-    }
+    [[nodiscard]] static auto& at(auto& w, Eigen::Index lane) noexcept { return w[static_cast<std::size_t>(lane)]; }
 
     /// The increment of stage i from what the modes have: a pair of conjugate ones counts twice, and 1/2 is the last
     /// entry of its vector.
