@@ -116,18 +116,18 @@ class MatrixLu {
     /// Factorises in place. False where a pivot is zero or no number.
     [[nodiscard]] bool factor() noexcept
     {
-        return with_constant(n_, [this](auto n) { return factor(n); });
+        return with_constant(n_, [&](auto n) { return this->factor(n); });
     }
 
     /// Replaces b by A^-1 b.
     void solve(Numbers<Entry, size>& b) const noexcept
     {
-        with_constant(n_, [&](auto n) { solve(n, b.data()); });
+        with_constant(n_, [&](auto n) { this->solve(n, b.data()); });
     }
 
   private:
     template <class Number>
-    bool factor(Number n) noexcept
+    [[gnu::always_inline]] bool factor(Number n) noexcept
     {
         const auto lu = [first = lu_.data(), n](std::size_t i, std::size_t j) -> Entry& { return first[i * n + j]; };
         for (std::size_t k = 0; k < n; ++k) {
