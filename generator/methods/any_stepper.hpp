@@ -30,7 +30,7 @@ class StepperFace {
     virtual Status interpolate(const CompiledModel& model, double t, const State& s, double h, const State& s1,
                                double theta, State& out) noexcept = 0;
     [[nodiscard]] virtual detail::Work work() const noexcept = 0;
-    [[nodiscard]] virtual int dense_order() const noexcept = 0;
+    [[nodiscard]] virtual std::size_t dense_order() const noexcept = 0;
     virtual bool polynomial(double theta, State& out) const noexcept = 0;
 
     // ---- of adaptive methods ----
@@ -79,7 +79,7 @@ class StepperOf final : public StepperFace {
         return stepper_.interpolate(model, t, s, h, s1, theta, out);
     }
     [[nodiscard]] detail::Work work() const noexcept override { return detail::Work().with(stepper_); }
-    [[nodiscard]] int dense_order() const noexcept override { return detail::dense_order_of(stepper_); }
+    [[nodiscard]] std::size_t dense_order() const noexcept override { return detail::dense_order_of(stepper_); }
     bool polynomial(double theta, State& out) const noexcept override
     {
         if constexpr (requires { stepper_.polynomial(theta, out); }) return stepper_.polynomial(theta, out);
@@ -162,7 +162,7 @@ class AnyStepper {
     {
         return one_->interpolate(model, t, s, h, s1, theta, out);
     }
-    [[nodiscard]] int dense_order() const noexcept { return one_->dense_order(); }
+    [[nodiscard]] std::size_t dense_order() const noexcept { return one_->dense_order(); }
     bool polynomial(double theta, State& out) const noexcept { return one_->polynomial(theta, out); }
     [[nodiscard]] std::size_t calls() const noexcept { return one_->work().calls; }
     [[nodiscard]] std::size_t newton_iterations() const noexcept { return one_->work().newton_iterations; }

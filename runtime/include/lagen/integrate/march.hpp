@@ -316,7 +316,7 @@ class March {
     void sum(const Real& theta, const Real& h)
     {
         if constexpr (sums) {
-            const auto nodes = static_cast<std::size_t>(dense_order_of(steps_.stepper_) + 3) / 2;
+            const auto nodes = (dense_order_of(steps_.stepper_) + 3) / 2;
             observer_.sum(nodes, steps_.t_from_, Real(theta * h), [&](const Real& x) -> const State& {
                 if constexpr (requires { steps_.stepper_.polynomial(x, steps_.inner_); })
                     if (theta == Real(1) && steps_.stepper_.polynomial(x, steps_.inner_))

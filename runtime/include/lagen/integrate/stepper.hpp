@@ -47,12 +47,12 @@ struct Work {
 
 /// The order of values inside a step: Stepper::dense_order, a function where it is known at run time.
 template <class Stepper>
-[[nodiscard]] int dense_order_of([[maybe_unused]] const Stepper& stepper) noexcept
+[[nodiscard]] std::size_t dense_order_of([[maybe_unused]] const Stepper& stepper) noexcept
 {
     if constexpr (requires { stepper.dense_order(); })
         return stepper.dense_order();
     else
-        return Stepper::dense_order;
+        return static_cast<std::size_t>(Stepper::dense_order);
 }
 
 /// Of a method of fixed steps; a discrete motion has its own.
