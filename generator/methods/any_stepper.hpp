@@ -30,6 +30,8 @@ class StepperFace {
     virtual Status interpolate(const CompiledModel& model, double t, const State& s, double h, const State& s1,
                                double theta, State& out) noexcept = 0;
     [[nodiscard]] virtual detail::Work work() const noexcept = 0;
+    [[nodiscard]] virtual std::size_t dense_order() const noexcept = 0;
+    virtual bool polynomial(double theta, State& out) const noexcept = 0;
 
     // ---- of adaptive methods ----
 
@@ -77,6 +79,12 @@ class StepperOf final : public StepperFace {
         return stepper_.interpolate(model, t, s, h, s1, theta, out);
     }
     [[nodiscard]] detail::Work work() const noexcept override { return detail::Work().with(stepper_); }
+    [[nodiscard]] std::size_t dense_order() const noexcept override { return detail::dense_order_of(stepper_); }
+    bool polynomial(double theta, State& out) const noexcept override
+    {
+        if constexpr (requires { stepper_.polynomial(theta, out); }) return stepper_.polynomial(theta, out);
+        return false;
+    }
 
     [[nodiscard]] double first_step(const CompiledModel& model, double t, double length,
                                     const State& s) noexcept override
@@ -127,7 +135,6 @@ class AnyStepper {
   public:
     using State = CompiledModel::State;
     static constexpr bool adaptive = is_adaptive;
-    static constexpr int order = 8, dense_order = 8; ///< of integrals along the motion
 
     template <class Method>
     explicit AnyStepper(const Method& method) : one_(method.stepper())
@@ -155,6 +162,8 @@ class AnyStepper {
     {
         return one_->interpolate(model, t, s, h, s1, theta, out);
     }
+    [[nodiscard]] std::size_t dense_order() const noexcept { return one_->dense_order(); }
+    bool polynomial(double theta, State& out) const noexcept { return one_->polynomial(theta, out); }
     [[nodiscard]] std::size_t calls() const noexcept { return one_->work().calls; }
     [[nodiscard]] std::size_t newton_iterations() const noexcept { return one_->work().newton_iterations; }
     [[nodiscard]] std::size_t decompositions() const noexcept { return one_->work().decompositions; }

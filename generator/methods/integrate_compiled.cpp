@@ -12,8 +12,8 @@ namespace {
 
 const ListedMethod* find(const std::string& type)
 {
-    for (const auto family :
-         {fixed_step_methods(), pair_methods(), verner_methods(), nystrom_methods(), taylor_methods()})
+    for (const auto family : {fixed_step_methods(), pair_methods(), verner_methods(), nystrom_methods(),
+                              implicit_methods(), taylor_methods()})
         for (const ListedMethod& each : family)
             if (type == each.type) return &each;
     return nullptr;
@@ -21,9 +21,10 @@ const ListedMethod* find(const std::string& type)
 
 } // namespace
 
-bool integrates_compiled(const std::string& type)
+std::optional<KernelsAsked> integrates_compiled(const std::string& type)
 {
-    return find(type) != nullptr;
+    const ListedMethod* found = find(type);
+    return found == nullptr ? std::nullopt : std::optional(found->asks);
 }
 
 std::string integrate_compiled(const std::string& path, const std::string& type, const detail::RunJob& job,

@@ -8,16 +8,23 @@
 #include "lagen_run/report.hpp"
 
 #include <csignal>
+#include <optional>
 #include <string>
 
 namespace lagen {
 
-/// Is there such a method for compiled models? `type` is the runtime's, "Dop853"; methods whose structure is in types
-/// (groups, discrete motions, exact flows) are compiled with their model.
-[[nodiscard]] bool integrates_compiled(const std::string& type);
+/// What a method asks of a compiled model besides its right-hand side.
+struct KernelsAsked {
+    bool jacobian = false, packs = false;
+};
 
-/// The run that the job asks for, over the compiled model of this path, with a method for which integrates_compiled is
-/// true. The rows go to `rows`, one after another; a signal that is not zero ends the run. Answers why the model could
+/// Is there such a method for compiled models, and what does it ask of them? Empty where there is none. `type` is the
+/// runtime's, "Dop853"; methods whose structure is in types (groups, discrete motions, exact flows) are compiled with
+/// their model.
+[[nodiscard]] std::optional<KernelsAsked> integrates_compiled(const std::string& type);
+
+/// The run that the job asks for, over the compiled model of this path, with a method that integrates_compiled finds.
+/// The rows go to `rows`, one after another; a signal that is not zero ends the run. Answers why the model could
 /// not be loaded, or nothing. (Names of the runtime stay out of here: some are those of other things in the rooms
 /// around.)
 [[nodiscard]] std::string integrate_compiled(const std::string& path, const std::string& type,

@@ -5,6 +5,7 @@
 #include "lagen/taylor.hpp"
 
 #include "methods/any_stepper.hpp"
+#include "methods/integrate_compiled.hpp"
 
 #include <span>
 #include <variant>
@@ -16,12 +17,14 @@ namespace lagen {
 struct ListedMethod {
     const char* type;
     std::variant<AnyAdaptive, AnyFixed, Taylor> method;
+    KernelsAsked asks{};
 };
 
 [[nodiscard]] std::span<const ListedMethod> fixed_step_methods();
 [[nodiscard]] std::span<const ListedMethod> pair_methods();
 [[nodiscard]] std::span<const ListedMethod> verner_methods();
 [[nodiscard]] std::span<const ListedMethod> nystrom_methods();
+[[nodiscard]] std::span<const ListedMethod> implicit_methods();
 [[nodiscard]] std::span<const ListedMethod> taylor_methods();
 
 } // namespace lagen

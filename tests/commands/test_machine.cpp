@@ -394,7 +394,7 @@ TEST_CASE("an interrupt in mid-run exits 130 and leaves the rows so far, and no 
         if (compiled_apart) arguments = by_splitting(arguments);
         arguments.insert(arguments.end(), options.begin(), options.end());
         const Started started = start_call(arguments, {.folder = folder});
-        for (int k = 0; k < 300 && compiled_apart && !alive(std::string("--end") + '\0' + mark); ++k)
+        for (int k = 0; k < 300 && compiled_apart && !alive("/lagen-run"); ++k)
             std::this_thread::sleep_for(std::chrono::milliseconds(20));
         std::this_thread::sleep_for(std::chrono::milliseconds(compiled_apart ? 100 : 1000));
         REQUIRE(::kill(started.process, signal) == 0);

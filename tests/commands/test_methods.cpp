@@ -33,9 +33,13 @@ TEST_CASE("methods over compiled models are compiled with the options that round
 TEST_CASE("the rows of a run by a method of lagen are those of the program of a sweep", "[run]")
 {
     const std::string folder = fresh_folder();
-    const std::pair<const char*, std::vector<std::string>> asked[] = {{"Rk4", {"--method", "rk4", "--step", "0.01"}},
-                                                                      {"Dop853", {"--method", "dop853"}},
-                                                                      {"Taylor", {"--method", "taylor"}}};
+    const std::pair<const char*, std::vector<std::string>> asked[] = {
+        {"Rk4", {"--method", "rk4", "--step", "0.01"}},
+        {"Dop853", {"--method", "dop853"}},
+        {"Gauss4", {"--method", "gauss4", "--step", "0.01"}},
+        {"Gauss8", {"--method", "gauss8", "--step", "0.02"}},
+        {"Radau5", {"--method", "radau5"}},
+        {"Taylor", {"--method", "taylor"}}};
     for (const auto& [type, method] : asked) {
         INFO(type);
         REQUIRE(integrates_compiled(type));

@@ -29,17 +29,23 @@ void copy_changed(const std::string& from, const std::string& to, std::size_t si
     std::ofstream(to, std::ios::binary) << bytes;
 }
 
+/// The folder of a program, with heavy_top.so in it.
+std::string folder_with_top(const std::string& program)
+{
+    const std::string folder = std::string(LAGEN_BINARY_DIR) + "/compiled/" + program + "/";
+    std::filesystem::create_directories(folder);
+    const Shell made = run_shell("'" LAGEN_PROGRAM "' compile '" LAGEN_SOURCE_DIR "/models/heavy_top.toml' -o '" +
+                                 folder + "heavy_top.so' 2>&1");
+    INFO(made.output);
+    REQUIRE(made.status == 0);
+    return folder;
+}
+
 } // namespace
 
 TEST_CASE("a compiled model has the bits of its header, takes no memory in a step, and is refused where it is none")
 {
-    const std::string folder = std::string(LAGEN_BINARY_DIR) + "/compiled/compiled_model/";
-    std::filesystem::create_directories(folder);
-    const std::string object = folder + "heavy_top.so";
-    const Shell made =
-        run_shell("'" LAGEN_PROGRAM "' compile '" LAGEN_SOURCE_DIR "/models/heavy_top.toml' -o '" + object + "' 2>&1");
-    INFO(made.output);
-    REQUIRE(made.status == 0);
+    const std::string folder = folder_with_top("compiled_model"), object = folder + "heavy_top.so";
     make_object(folder, "other_version",
                 "#include \"lagen/compiled_model.h\"\nextern \"C\" {\n"
                 "extern __attribute__((visibility(\"default\"))) const char lagen_compiled_model_machine[];\n"
@@ -105,6 +111,34 @@ TEST_CASE("Taylor's method over compiled models has the bits of their classes, a
           "memory bounded 0 ok\n"
           "memory of a watch same\n"
           "without series invalid_input\n");
+}
+
+TEST_CASE("implicit methods have the bits of the header on compiled models, and take no memory in a step")
+{
+    const std::string folder = folder_with_top("compiled_implicit");
+    for (const std::string name : {"relaxation", "van_der_pol", "lattice", "decay"})
+        make_object(folder, name,
+                    "#include \"lagen/export_model.hpp\"\n#include \"compile/programs/implicit_models.hpp\"\n"
+                    "LAGEN_EXPORT_MODEL(lagen::models::" +
+                        name + ")\n");
+    CHECK(run_on_headers("compiled_implicit", {"models/heavy_top.toml"}) ==
+          "heavy_top gauss2 ok same 0 ok\n"
+          "heavy_top gauss4 ok same 0 ok\n"
+          "heavy_top gauss8 ok same 0 ok\n"
+          "heavy_top gauss12 ok same 0 ok\n"
+          "heavy_top radau5 ok same 0 ok\n"
+          "relaxation gauss4 ok same 0 ok\n"
+          "relaxation radau3_fixed ok same 0 ok\n"
+          "relaxation radau5 ok same 0 ok\n"
+          "van_der_pol gauss6 newton_diverged same 0 ok\n"
+          "van_der_pol radau5_fixed newton_diverged same 0 ok\n"
+          "van_der_pol radau5 ok same 0 ok\n"
+          "lattice gauss4 ok same 0 ok\n"
+          "lattice gauss8 ok same 0 ok\n"
+          "lattice radau5 ok same 0 ok\n"
+          "without a Jacobian invalid_input\n"
+          "without a Jacobian invalid_input\n"
+          "without a Jacobian invalid_input\n");
 }
 
 TEST_CASE("what cannot be compiled as a shared object is refused with a sentence")

@@ -13,6 +13,7 @@ using lagen::detail::band_order;
 using lagen::detail::BandLu;
 using lagen::detail::Complex;
 using lagen::detail::is_narrow;
+using lagen::detail::KnownBand;
 
 namespace {
 
@@ -106,7 +107,7 @@ double residual(const Draw& draw)
 {
     constexpr auto n = static_cast<std::size_t>(M::dimension);
     static constexpr auto band = order_of<M>;
-    BandLu<Entry, n, band> lu;
+    BandLu<Entry, KnownBand<band>> lu;
     std::array<Entry, n> b, sums{};
     std::array<Entry, M::entries> values;
     for (Entry& entry : b) entry = draw();
@@ -175,7 +176,7 @@ TEST_CASE("Systems with a band are solved to rounding with exchanges of rows, on
         CHECK(residual<Lattice<200>, Complex<double>>(complex) < lagen::tolerance::roundoff(1000));
     }
     static constexpr auto diagonal = band_order<3>(std::array{0, 1, 2}, std::array{0, 1, 2});
-    BandLu<double, 3, diagonal> singular;
+    BandLu<double, KnownBand<diagonal>> singular;
     singular(0, 0) = singular(2, 2) = 1;
     CHECK_FALSE(singular.factor());
     singular(1, 1) = std::nan("");

@@ -46,8 +46,8 @@ const detail::HeldInputs steps{{0, 1, 2}, {1, 0, -1, 0, 0, 0}}; ///< u, k: a pus
 struct Work {
     const HeldMass& model;
     double time = 0, work = 0;
-    template <int nodes, class Inside>
-    void sum(double, double h, const Inside& inside)
+    template <class Inside>
+    void sum(std::size_t, double, double h, const Inside& inside)
     {
         time += h;
         work += h * model.inputs.u * inside(0.5)[1];

@@ -24,11 +24,11 @@ std::string point_text(const NamedPoint& point)
     return text.empty() ? "every point" : text;
 }
 
-/// Kernels of a header that explicit methods, events, rows and what is followed along a run do without.
+/// Kernels of a header that methods over compiled models, events, rows and what is followed along a run do without.
 constexpr const char* kernels_no_run_asks_for[] = {
-    "jacobian", "input_jacobian", "mass_matrix",     "momentum",       "inverse_dynamics",
-    "velocity", "controls",       "lagrangian",      "cost",           "ambient_velocity",
-    "reaction", "moving_energy",  "algebra_element", "algebra_action", "algebra_bracket"};
+    "input_jacobian", "mass_matrix",     "momentum",       "inverse_dynamics", "velocity",
+    "controls",       "lagrangian",      "cost",           "ambient_velocity", "reaction",
+    "moving_energy",  "algebra_element", "algebra_action", "algebra_bracket"};
 
 constexpr ProofBudget composition_budget{.terms = 5000, .products = 2'000'000};
 
@@ -191,12 +191,15 @@ SceneText scene_text(const CheckedModel& checked, const Scene& scene, const std:
     const bool takes_series = method.kind == MethodKind::series;
     if (takes_series) request.with = {"taylor"};
     if (takes_series && !scene.events.empty()) request.with.emplace_back("event_series");
-    const bool is_model = !driver.abreast && request.time_scale == nullptr && integrates_compiled(method.type);
-    if (is_model)
+    const std::optional<KernelsAsked> asked = integrates_compiled(method.type);
+    const bool is_model = !driver.abreast && request.time_scale == nullptr && asked;
+    if (is_model) {
         for (const char* kernel : kernels_no_run_asks_for) request.without.emplace_back(kernel);
+        if (!asked->jacobian) request.without.emplace_back("jacobian");
+    }
     Generated generated = generate(checked, request);
     ProgramText text{std::move(generated.header),
-                     is_model ? model_text(generated.module.name)
+                     is_model ? model_text(generated.module.name, asked->packs)
                               : program_text(driver, generated.module.name, method, request.time_scale != nullptr)};
     text.is_model = is_model;
     text.options = rounding_options(); // the same bits in a run and in the rows of a sweep

@@ -139,6 +139,16 @@ class CompiledModel {
         return status_of(rhs_(instance_, t, s.data(), ds.data()));
     }
 
+    /// The same of `width` states at once, 4 or 8, as lagen/compiled_model.h says; takes_packs() tells whether it is
+    /// there.
+    [[nodiscard]] bool takes_packs() const noexcept { return parts_.front().table->rhs8 != nullptr; }
+    template <int width>
+    void rhs_of_packs(const double* t, const double* s, double* ds, std::uint8_t* status) const noexcept
+    {
+        static_assert(width == 4 || width == 8);
+        (width == 4 ? parts_.front().table->rhs4 : parts_.front().table->rhs8)(instance_, t, s, ds, status);
+    }
+
     [[nodiscard]] double energy(double t, const State& s) const noexcept { return one(Function::energy, t, s); }
     [[nodiscard]] double power(double t, const State& s) const noexcept { return one(Function::power, t, s); }
     [[nodiscard]] double hamiltonian(double t, const State& s) const noexcept

@@ -61,10 +61,7 @@ class ModelExport {
         using Wide = typename WithScalar<M, P>::type;
         constexpr auto lanes = static_cast<std::size_t>(M::dimension);
         Wide wide;
-        if constexpr (HasParameters<M>) {
-            M copy = model(instance);
-            for (std::size_t k = 0; k < M::parameter_names.size(); ++k) wide.parameter(k) = P(copy.parameter(k));
-        }
+        give_numbers(model(instance), wide, [](P& to, double from) { to = P(from); });
         typename Wide::State state, rate;
         P time;
         std::memcpy(&time, t, sizeof time);

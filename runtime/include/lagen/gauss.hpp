@@ -44,14 +44,15 @@ class CollocationStepper {
     /// No derivative is kept from step to step; the first step begins without a prediction.
     Status begin(const M& model, Real, const State& s) noexcept
     {
-        equations_.begin(s);
+        const Status status = equations_.begin(model, s);
+        if (status != Status::ok) return status;
         lost_ = State::Zero(s.size());
         next_lost_ = lost_;
         middle_ = lost_;
         convergence_.begin(lost_);
         for (State& stage : z_) stage = lost_;
         inner_ = z_;
-        if constexpr (packed) packs_.begin(model, s.size());
+        if constexpr (may_pack) packs_.begin(model, s.size());
         return Status::ok;
     }
 
@@ -90,8 +91,8 @@ class CollocationStepper {
             for (std::size_t i = 0; i < stages; ++i) polynomial(Real(theta * equations_.method().c[i]), inner_[i]);
         };
         guess();
-        bool solved = simple && iterate_simply(model, t, s, length, inner_) == Status::ok;
-        if (!solved && simple) equations_.linearise(model, t, s), guess();
+        bool solved = simple() && iterate_simply(model, t, s, length, inner_) == Status::ok;
+        if (!solved && simple()) equations_.linearise(model, t, s), guess();
         solved = solved ||
                  (equations_.factor(length) && iterate(model, t, s, length, inner_, most_refreshments) == Status::ok);
         if (solved) {
@@ -105,11 +106,12 @@ class CollocationStepper {
     }
 
     /// What the polynomial of the last step has more than its beginning.
-    void polynomial(const Real& theta, State& out) const noexcept
+    bool polynomial(const Real& theta, State& out) const noexcept
     {
         Weights weights;
         detail::collocation_weights(equations_.method().c, theta, weights);
         combine(weights, out);
+        return true;
     }
 
     [[nodiscard]] std::size_t calls() const noexcept { return equations_.calls; }
@@ -118,10 +120,18 @@ class CollocationStepper {
 
   private:
     using Stages = std::array<State, stages>;
-    static constexpr bool simple = stages > 4 || (stages == 4 && detail::TakesPacks<M>); ///< no Jacobian at first
-    static constexpr bool packed = simple && detail::TakesPacks<M>;
+    static constexpr bool may_pack = stages >= 4 && (detail::TakesPacks<M> || detail::OffersPacks<M>);
     static constexpr int longest_wait = 63;
-    using Packs = std::conditional_t<packed, detail::PackedStages<stages, M>, detail::NoPacks>;
+    using Packs = std::conditional_t<may_pack, detail::PackedStages<stages, M>, detail::NoPacks>;
+
+    /// Are the stages of the iteration without a Jacobian lanes of packs?
+    [[nodiscard]] bool packed() const noexcept
+    {
+        if constexpr (may_pack) return packs_.is_offered();
+        return false;
+    }
+    /// Does an iteration without a Jacobian come first?
+    [[nodiscard]] bool simple() const noexcept { return stages > 4 || packed(); }
 
     /// s1 - s of a lane, of stages that have converged.
     Real gain(const Stages& z, Eigen::Index lane) const noexcept
@@ -168,7 +178,7 @@ class CollocationStepper {
     /// twice as many as the last time.
     Status solve(const M& model, const Real& t, const State& s, const Real& h) noexcept
     {
-        if (simple && waiting_-- <= 0) {
+        if (simple() && waiting_-- <= 0) {
             inner_ = z_;
             const bool solved = iterate_simply(model, t, s, h, inner_) == Status::ok;
             wait_ = solved ? 0 : std::min(2 * wait_ + 1, longest_wait);
@@ -236,23 +246,30 @@ class CollocationStepper {
         equations_.set_length(h);
         detail::for_each_lane(s,
                               [&](Eigen::Index lane) { convergence_.scale[lane] = detail::magnitude(Real(s[lane])); });
-        if constexpr (packed) packs_.load(z);
-        const auto round = [&](Real& size) {
-            if constexpr (packed) {
-                equations_.calls += stages;
-                if (!packs_.evaluate(t, h, s, lost_)) return Status::newton_diverged;
-                size = packs_.move(convergence_, [&](const auto& a) { return equations_.times_length(a); });
-            } else {
-                const Status status = equations_.evaluate(model, t, s, lost_, z);
-                if (status != Status::ok) return status;
-                size = move(z);
-            }
+        const auto finite = [](const Real& size) {
             return size - size == Real(0) ? Status::ok : Status::newton_diverged;
         };
-        const Status status = converge(round, [] { return false; });
-        if constexpr (packed)
-            if (status == Status::ok) packs_.unload(z, equations_.slopes);
-        return status;
+        const auto never = [] { return false; };
+        if constexpr (may_pack)
+            if (packed()) {
+                packs_.load(z);
+                const auto round = [&](Real& size) {
+                    equations_.calls += stages;
+                    if (!packs_.evaluate(model, t, h, s, lost_)) return Status::newton_diverged;
+                    size = packs_.move(convergence_, [&](const auto& a) { return equations_.times_length(a); });
+                    return finite(size);
+                };
+                const Status status = converge(round, never);
+                if (status == Status::ok) packs_.unload(z, equations_.slopes);
+                return status;
+            }
+        const auto round = [&](Real& size) {
+            const Status status = equations_.evaluate(model, t, s, lost_, z);
+            if (status != Status::ok) return status;
+            size = move(z);
+            return finite(size);
+        };
+        return converge(round, never);
     }
 
     /// Rounds until their increments, the largest relative one of which a round writes, are rounding errors; refresh()
@@ -299,11 +316,12 @@ class CollocationStepper {
         using detail::load;
         using detail::size_of;
         Real largest = Real(0), sum = Real(0);
+        const auto& increments = detail::held<0, stages>(equations_.residuals);
         detail::for_lanes(middle_, [&]<int width>(detail::Width<width>, Eigen::Index lane) {
             using Slice = detail::Slice<State, width>;
             Slice step = detail::uniform<State, width>(Real(0)), reach = step, all = step;
             detail::write_out<stages>([&](auto i) {
-                const Slice increment = load<width>(equations_.residuals[i], lane);
+                const Slice increment = load<width>(increments[i], lane);
                 const Slice moved = load<width>(z[i], lane) + increment;
                 detail::store(z[i], lane, moved);
                 const Slice size = size_of(increment), far = size_of(moved);

@@ -12,6 +12,7 @@
 #include <concepts>
 #include <cstddef>
 #include <type_traits>
+#include <vector>
 
 namespace lagen {
 
@@ -248,6 +249,17 @@ concept HasJacobian = requires(const M& model, typename M::Scalar t, const typen
 {
     model.jacobian_values(t, s, values);
     M::jacobian_columns;
+};
+
+/// The same of a model that says at run time whether there is one, and where its entries are.
+template <class M>
+concept HasJacobianLater = requires(const M& model, typename M::Scalar t, const typename M::State& s,
+                                    std::vector<typename M::Scalar>& values)
+{
+    requires std::same_as<decltype(model.has_jacobian()), bool>;
+    model.jacobian_values(t, s, values);
+    model.jacobian_rows().size();
+    model.jacobian_columns().size();
 };
 
 /// Unknowns that are followed along a run: `follow` takes those at (t, s) as the guess of the next search.

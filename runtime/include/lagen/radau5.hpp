@@ -108,7 +108,8 @@ class Radau5Stepper {
 
     Status begin(const M& model, Real t, const State& s) noexcept
     {
-        equations_.begin(s);
+        const Status begun = equations_.begin(model, s);
+        if (begun != Status::ok) return begun;
         slope_ = State::Zero(s.size());
         next_slope_ = slope_;
         scale_ = slope_;

@@ -11,9 +11,9 @@
 /// the start itself changes with the step.
 ///
 /// Where no figures are given a column is looked at along its own motion, with a tenth of its shortest step and at most
-/// 10^6 steps: the scale is the largest |f - f(1)| with the arrow 1 at the same point, which tends to the kinetic energy
-/// where f is the energy; omega the largest |arg lambda|/h of an eigenvalue lambda of the derivative of a step in (x,
-/// mu), by differences, of the first 400 steps.
+/// 10^6 steps: the scale is the largest |f - f(1)| with the arrow 1 at the same point, which tends to the kinetic
+/// energy where f is the energy; omega the largest |arg lambda|/h of an eigenvalue lambda of the derivative of a step
+/// in (x, mu), by differences, of the first 400 steps.
 #pragma once
 
 #include "lagen_chart/stability.hpp"

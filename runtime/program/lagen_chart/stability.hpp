@@ -50,7 +50,8 @@ double followed(const StabilityRequest& request, const M& model, double t, const
             return model.hamiltonian(t, s);
     }
     if constexpr (HasInvariants<M>)
-        if (request.follow == Follow::invariant) return model.invariants(t, s)[static_cast<Eigen::Index>(request.invariant)];
+        if (request.follow == Follow::invariant)
+            return model.invariants(t, s)[static_cast<Eigen::Index>(request.invariant)];
     return s.template lpNorm<Eigen::Infinity>();
 }
 
@@ -140,7 +141,8 @@ MethodFates fates_of(const StabilityRequest& request, const std::vector<Stabilit
 {
     MethodFates fates{std::string(name), {}, {}};
     for (const StabilityColumn<M>& column : columns)
-        for (const double step : request.steps) fates.cells.push_back(cell_of(fate_of<M, Method>(request, column, step)));
+        for (const double step : request.steps)
+            fates.cells.push_back(cell_of(fate_of<M, Method>(request, column, step)));
     return fates;
 }
 

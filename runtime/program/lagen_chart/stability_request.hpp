@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// What the programs of `lagen chart --stability` are asked for in a file, and what they answer (lagen_run/archive.hpp).
-/// No name of the runtime is in here.
+/// What the programs of `lagen chart --stability` are asked for in a file, and what they answer
+/// (lagen_run/archive.hpp). No name of the runtime is in here.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace lagen::chart {
 
-/// The quantity f whose change is looked at: the energy or the Hamiltonian, an invariant by its place, or the size of the
-/// state, which nothing keeps.
+/// The quantity f whose change is looked at: the energy or the Hamiltonian, an invariant by its place, or the size of
+/// the state, which nothing keeps.
 enum class Follow { energy, invariant, size };
 
 /// Parameters in the order of the header, and state lanes.
@@ -33,7 +33,8 @@ struct StabilityRequest {
     Follow follow = Follow::size;
     std::size_t invariant = 0;
     std::vector<double> steps;
-    std::vector<ColumnStart> starts; ///< of each column; of a discrete motion of each step of each column, with its step
+    std::vector<ColumnStart>
+        starts; ///< of each column; of a discrete motion of each step of each column, with its step
     std::vector<ColumnFigures> figures; ///< of a discrete motion: those of the columns, where they are known
     std::size_t step = 0;               ///< of a discrete motion: the number of the parameter that is the step
 
@@ -50,10 +51,7 @@ struct StabilityCell {
     double error = 0, drift = 0;
     std::string status = "ok"; ///< of the run
 
-    static void each(auto& self, auto& archive)
-    {
-        archive(self.outcome, self.t, self.error, self.drift, self.status);
-    }
+    static void each(auto& self, auto& archive) { archive(self.outcome, self.t, self.error, self.drift, self.status); }
 };
 
 struct MethodFates {

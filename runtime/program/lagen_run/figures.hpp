@@ -48,15 +48,20 @@ class Figures {
         if (means_.wants()) look(model, t, s);
     }
 
-    /// The motion over a time h from t0 on, inside(x) its state at t0 + x h: the work of the power, by Gauss' formula.
-    template <int nodes, class Inside>
-    void sum(const M& model, double t0, double h, const Inside& inside) requires(HasPower<M>)
+    /// The motion over a time h from t0 on, inside(x) its state at t0 + x h: the work of the power, by Gauss' formula
+    /// with so many nodes.
+    template <class Inside>
+    void sum(std::size_t nodes, const M& model, double t0, double h, const Inside& inside) requires(HasPower<M>)
     {
         if (!balances_) return;
-        static const auto rule = legendre_nodes<nodes, double>();
+        if (nodes_.size() != nodes) {
+            nodes_.resize(nodes);
+            weights_.resize(nodes);
+            legendre_nodes<double>(nodes_, weights_);
+        }
         for (std::size_t i = 0; i < nodes; ++i) {
-            const double x = (1 + rule.first[i]) / 2;
-            work_ += h * rule.second[i] * static_cast<double>(model.power(t0 + x * h, inside(x)));
+            const double x = (1 + nodes_[i]) / 2;
+            work_ += h * weights_[i] * static_cast<double>(model.power(t0 + x * h, inside(x)));
         }
         sums_ = true;
     }
@@ -254,6 +259,7 @@ class Figures {
     double start_ = 0, work_ = 0;
     State start_state_;
     Values initial_, reference_, most_, most_t_, allowed_, size_, moved_at_, seen_;
+    Values nodes_, weights_; ///< of the integral
     BatchMeans means_;
     double off_ = -1, off_t_ = nothing; ///< the largest sum of squares of the constraints, and where it was
     State off_state_;

@@ -80,12 +80,12 @@ class DriveRecord {
     void jump(double t, const State& from, const State& to) { figures_.jump(*model_, t, from, to); }
 
     /// The motion over a time h from t0 on, inside(x) its state at t0 + x h.
-    template <int nodes, class Inside>
-    void sum(double t0, double h, const Inside& inside) requires(HasPower<M>)
+    template <class Inside>
+    void sum(std::size_t nodes, double t0, double h, const Inside& inside) requires(HasPower<M>)
     {
-        if (!follows(*model_)) return figures_.template sum<nodes>(*model_, t0, h, inside);
+        if (!follows(*model_)) return figures_.sum(nodes, *model_, t0, h, inside);
         ObservedModel<M> followed(*model_);
-        figures_.template sum<nodes>(*followed, t0, h, [&](double x) -> const State& {
+        figures_.sum(nodes, *followed, t0, h, [&](double x) -> const State& {
             const State& s = inside(x);
             followed.follow(t0 + x * h, s);
             return s;

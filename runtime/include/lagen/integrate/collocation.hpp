@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <type_traits>
 #include <utility>
 
@@ -45,12 +46,26 @@ template <class Real>
 using Wider = std::conditional_t<std::is_same_v<Real, float>, double,
                                  std::conditional_t<std::is_same_v<Real, double>, long double, Real>>;
 
-/// The zeros x of L_s in increasing order, by Newton's method from cos(pi (i + 3/4) / (s + 1/2)), every step of which
-/// doubles the number of right digits; and 1/(s L_{s-1}(x))^2 (1 - x^2), the weights on an interval of length 1.
-template <std::size_t s, class Real>
-std::pair<std::array<Real, s>, std::array<Real, s>> legendre_nodes() noexcept
+/// L_{s-1} and L_s at x.
+template <class Real>
+std::pair<Real, Real> last_legendre(std::size_t s, const Real& x) noexcept
 {
-    std::array<Real, s> x{}, b{};
+    Real before = Real(1), last = x;
+    for (std::size_t k = 2; k <= s; ++k) {
+        const Real next = (Real(2 * k - 1) * x * last - Real(k - 1) * before) / Real(k);
+        before = last;
+        last = next;
+    }
+    return {before, last};
+}
+
+/// The zeros x of L_s in increasing order, of which there is room for s, by Newton's method from cos(pi (i + 3/4) / (s
+/// + 1/2)), every step of which doubles the number of right digits; and 1/(s L_{s-1}(x))^2 (1 - x^2), the weights on an
+/// interval of length 1.
+template <class Real>
+void legendre_nodes(std::span<Real> x, std::span<Real> b) noexcept
+{
+    const std::size_t s = x.size();
     for (std::size_t i = 0; i < s; ++i) {
         const double angle = (static_cast<double>(i) + 0.75) / (static_cast<double>(s) + 0.5);
         if (2 * i + 1 == s) {
@@ -60,14 +75,13 @@ std::pair<std::array<Real, s>, std::array<Real, s>> legendre_nodes() noexcept
         } else {
             x[i] = Real(-std::cos(3.141592653589793 * angle));
             for (int step = 0; step < 10; ++step) {
-                const auto at = legendre<s>(x[i]);
-                x[i] -= at[s] * (x[i] * x[i] - Real(1)) / (Real(s) * (x[i] * at[s] - at[s - 1]));
+                const auto [before, last] = last_legendre(s, x[i]);
+                x[i] -= last * (x[i] * x[i] - Real(1)) / (Real(s) * (x[i] * last - before));
             }
         }
-        const Real last = Real(s) * legendre<s>(x[i])[s - 1];
-        b[i] = (Real(1) - x[i] * x[i]) / (last * last);
+        const Real slope = Real(s) * last_legendre(s, x[i]).first;
+        b[i] = (Real(1) - x[i] * x[i]) / (slope * slope);
     }
-    return {x, b};
 }
 
 /// Rounded so that b_i = b_{s-1-i} and their sum is exactly 1: whole numbers of units of the last place of 1/2.
@@ -93,7 +107,8 @@ template <class Real, std::size_t s>
 Collocation<Real, s> gauss_coefficients() noexcept
 {
     using Wide = Wider<Real>;
-    const auto [x, b] = legendre_nodes<s, Wide>();
+    std::array<Wide, s> x{}, b{};
+    legendre_nodes<Wide>(x, b);
     Collocation<Real, s> method;
     method.b = rounded_weights<Real>(b);
     for (std::size_t i = 0; i < s; ++i) {

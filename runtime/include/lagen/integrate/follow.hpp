@@ -39,7 +39,10 @@ requires(!is_pack<typename M::Scalar>) [[nodiscard]] Status
     using Scalar = typename M::Scalar;
     using Real = real_t<Scalar>;
     using std::sqrt;
+    if constexpr (requires { model.follows(); })
+        if (!model.follows()) return reason;
     tangent_t<M> rate;
+    if constexpr (std::is_same_v<typename M::State, tangent_t<M>>) rate = s;
     if (reason != Status::newton_diverged || model.rhs(Scalar(t), s, rate) != Status::ok) return reason;
     M ahead = model;
     const Real shortest = sqrt(std::numeric_limits<Real>::epsilon());

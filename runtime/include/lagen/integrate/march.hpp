@@ -29,12 +29,11 @@ class March {
     static Real epsilon() noexcept { return std::numeric_limits<Real>::epsilon(); }
     /// Adaptive steps are long and their interpolants cheap: events are looked for in so many pieces of each.
     static constexpr int pieces = Stepper::adaptive ? 4 : 1;
-    static constexpr int nodes = (Stepper::dense_order + 3) / 2;
     static constexpr bool asks = std::is_same_v<Asked, Options<M>>;
     static constexpr bool can_jump = asks && RightHandSide<M> && !is_pack<Scalar> && std::is_copy_assignable_v<Stepper>;
     static constexpr bool sums = requires(Observer observer, Real t, const State& (*inside)(const Real&))
     {
-        observer.template sum<nodes>(t, t, inside);
+        observer.sum(std::size_t{1}, t, t, inside);
     };
 
     March(const M& model, const State& s, Interval<Real> span, const Method& method, const Asked& options,
@@ -103,7 +102,7 @@ class March {
         if (steps_.status() != Status::ok) return steps_.status();
         steps_.aim(span_.end);
         if constexpr (asks && moves_by_sums<M>)
-            if (options_.dense) run_.solution.begin(steps_.t(), steps_.state(), Stepper::dense_order);
+            if (options_.dense) run_.solution.begin(steps_.t(), steps_.state(), dense_order_of(steps_.stepper_));
         if constexpr (asks)
             rows_.begin(), rows_.until(span_.start, Real(0), run_, [&](Real) { return &steps_.state(); });
         show();
@@ -316,15 +315,15 @@ class March {
     /// method. A collocation polynomial gives integrals over whole steps that order too.
     void sum(const Real& theta, const Real& h)
     {
-        if constexpr (sums)
-            observer_.template sum<nodes>(steps_.t_from_, Real(theta * h), [&](const Real& x) -> const State& {
+        if constexpr (sums) {
+            const auto nodes = (dense_order_of(steps_.stepper_) + 3) / 2;
+            observer_.sum(nodes, steps_.t_from_, Real(theta * h), [&](const Real& x) -> const State& {
                 if constexpr (requires { steps_.stepper_.polynomial(x, steps_.inner_); })
-                    if (theta == Real(1)) {
-                        steps_.stepper_.polynomial(x, steps_.inner_);
+                    if (theta == Real(1) && steps_.stepper_.polynomial(x, steps_.inner_))
                         return steps_.inner_ += steps_.from_;
-                    }
                 return *inside(Real(x * theta), h).second;
             });
+        }
     }
 
     Real theta_width(const Real& h) const noexcept

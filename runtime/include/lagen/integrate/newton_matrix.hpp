@@ -4,14 +4,14 @@
 /// converge; what it converges to does not depend on them.
 #pragma once
 
-#include "lagen/requirements.hpp"
+#include "lagen/integrate/sizes.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 namespace lagen::detail {
 
@@ -76,31 +76,6 @@ Entry zero() noexcept
         return Entry{};
 }
 
-/// Entries by rows: in place up to a size that a stack holds easily, else on the heap (once, at construction).
-template <class Entry, std::size_t rows, std::size_t columns>
-class Grid {
-  public:
-    static constexpr bool in_place = rows * columns <= 48 * 48;
-
-    Grid() { clear(); }
-    [[nodiscard]] Entry& operator()(std::size_t i, std::size_t j) noexcept { return entries_[i * columns + j]; }
-    [[nodiscard]] const Entry& operator()(std::size_t i, std::size_t j) const noexcept
-    {
-        return entries_[i * columns + j];
-    }
-
-    void clear()
-    {
-        if constexpr (in_place)
-            entries_.fill(zero<Entry>());
-        else
-            entries_.assign(rows * columns, zero<Entry>()); // allocates the first time alone
-    }
-
-  private:
-    std::conditional_t<in_place, std::array<Entry, rows * columns>, std::vector<Entry>> entries_;
-};
-
 /// f(0), .., f(count - 1), the numbers as constants: written out, which g++ 12 does not do at -O2 by itself.
 template <std::size_t count, class Function>
 [[gnu::always_inline]] inline void write_out(const Function& f) noexcept
@@ -112,78 +87,108 @@ template <std::size_t count, class Function>
     (std::make_index_sequence<count>{});
 }
 
-/// P A = L U, the pivot of a column its largest entry. Zeros below the diagonal cost nothing.
-template <class Entry, std::size_t n>
+/// P A = L U, the pivot of a column its largest entry. Zeros below the diagonal cost nothing. A size that is known at
+/// run time is `sized_later`.
+template <class Entry, std::size_t size>
 class MatrixLu {
   public:
     using Real = typename RealPart<Entry>::type;
 
-    /// The matrix to be factorised, by entries.
-    [[nodiscard]] Entry& operator()(std::size_t i, std::size_t j) noexcept { return lu_(i, j); }
+    MatrixLu()
+    {
+        if constexpr (size != sized_later) begin(size);
+    }
 
-    void clear() { lu_.clear(); }
+    /// A matrix of n x n zeros; takes memory where it is not in place.
+    void begin(std::size_t n)
+    {
+        n_ = Size<size>(n);
+        make_numbers(lu_, n * n, zero<Entry>());
+        make_numbers(inverses_, n, zero<Entry>());
+        make_numbers(swaps_, n, 0);
+    }
+
+    /// The matrix to be factorised, by entries.
+    [[nodiscard]] Entry& operator()(std::size_t i, std::size_t j) noexcept { return lu_[i * n_ + j]; }
+
+    void clear() noexcept { std::fill(lu_.begin(), lu_.end(), zero<Entry>()); }
 
     /// Factorises in place. False where a pivot is zero or no number.
     [[nodiscard]] bool factor() noexcept
     {
+        return with_constant(n_, [&](auto n) { return this->factor(n); });
+    }
+
+    /// Replaces b by A^-1 b.
+    void solve(Numbers<Entry, size>& b) const noexcept
+    {
+        with_constant(n_, [&](auto n) { this->solve(n, b.data()); });
+    }
+
+  private:
+    template <class Number>
+    [[gnu::always_inline]] bool factor(Number n) noexcept
+    {
+        const auto lu = [first = lu_.data(), n](std::size_t i, std::size_t j) -> Entry& { return first[i * n + j]; };
         for (std::size_t k = 0; k < n; ++k) {
-            if (!bring_up_pivot(k)) return false;
-            const Entry inverse = reciprocal(lu_(k, k));
+            if (!bring_up_pivot(n, lu, k)) return false;
+            const Entry inverse = reciprocal(lu(k, k));
             inverses_[k] = inverse;
             for (std::size_t i = k + 1; i < n; ++i) {
-                if (lu_(i, k) == zero<Entry>()) continue;
-                const Entry multiplier = lu_(i, k) * inverse;
-                lu_(i, k) = multiplier;
-                for (std::size_t j = k + 1; j < n; ++j) lu_(i, j) = lu_(i, j) - multiplier * lu_(k, j);
+                if (lu(i, k) == zero<Entry>()) continue;
+                const Entry multiplier = lu(i, k) * inverse;
+                lu(i, k) = multiplier;
+                for (std::size_t j = k + 1; j < n; ++j) lu(i, j) = lu(i, j) - multiplier * lu(k, j);
             }
         }
         return true;
     }
 
-    /// Replaces b by A^-1 b.
-    void solve(std::array<Entry, n>& b) const noexcept
+    template <class Number>
+    [[gnu::always_inline]] void solve(Number n, Entry* b) const noexcept
     {
+        const auto lu = [first = lu_.data(), n](std::size_t i, std::size_t j) { return first[i * n + j]; };
         for (std::size_t k = 0; k + 1 < n; ++k)
             if (swaps_[k] != k) std::swap(b[k], b[swaps_[k]]);
-        if constexpr (n <= 6) {
-            write_out<n>([&](auto i) { write_out<i()>([&](auto j) { b[i] = b[i] - lu_(i, j) * b[j]; }); });
-            write_out<n>([&](auto k) {
-                constexpr std::size_t j = n - 1 - k();
+        if constexpr (is_constant_up_to<Number, 6>()) {
+            write_out<n()>([&](auto i) { write_out<i()>([&](auto j) { b[i] = b[i] - lu(i, j) * b[j]; }); });
+            write_out<n()>([&](auto k) {
+                constexpr std::size_t j = n() - 1 - k();
                 b[j] = b[j] * inverses_[j];
-                write_out<j>([&](auto i) { b[i] = b[i] - lu_(i, j) * b[j]; });
+                write_out<j>([&](auto i) { b[i] = b[i] - lu(i, j) * b[j]; });
             });
         } else {
             for (std::size_t i = 1; i < n; ++i)
-                for (std::size_t j = 0; j < i; ++j) b[i] = b[i] - lu_(i, j) * b[j];
+                for (std::size_t j = 0; j < i; ++j) b[i] = b[i] - lu(i, j) * b[j];
             for (std::size_t j = n; j-- > 0;) {
                 b[j] = b[j] * inverses_[j];
-                for (std::size_t i = 0; i < j; ++i) b[i] = b[i] - lu_(i, j) * b[j];
+                for (std::size_t i = 0; i < j; ++i) b[i] = b[i] - lu(i, j) * b[j];
             }
         }
     }
 
-  private:
-    bool bring_up_pivot(std::size_t k) noexcept
+    template <class Number, class Places>
+    bool bring_up_pivot(Number n, const Places& lu, std::size_t k) noexcept
     {
-        Real largest = magnitude(lu_(k, k));
+        Real largest = magnitude(lu(k, k));
         std::size_t row = k;
         for (std::size_t i = k + 1; i < n; ++i) {
-            const Real size = magnitude(lu_(i, k));
-            if (!(size > largest)) continue;
-            largest = size;
+            const Real size_here = magnitude(lu(i, k));
+            if (!(size_here > largest)) continue;
+            largest = size_here;
             row = i;
         }
         // Whole rows, so that a right-hand side takes every exchange before the first elimination.
-        if constexpr (n > 1)
-            if (k < row && row < n)
-                for (std::size_t j = 0; j < n; ++j) std::swap(lu_(k, j), lu_(row, j));
+        if (n > 1 && k < row && row < n)
+            for (std::size_t j = 0; j < n; ++j) std::swap(lu(k, j), lu(row, j));
         swaps_[k] = row;
         return largest > Real(0) && largest - largest == Real(0);
     }
 
-    Grid<Entry, n, n> lu_;
-    std::array<Entry, n> inverses_{};
-    std::array<std::size_t, n> swaps_{};
+    [[no_unique_address]] Size<size> n_;
+    Numbers<Entry, held_in_place(size, size)> lu_;
+    Numbers<Entry, size> inverses_;
+    Numbers<std::size_t, size> swaps_;
 };
 
 } // namespace lagen::detail

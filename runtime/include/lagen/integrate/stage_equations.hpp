@@ -4,8 +4,8 @@
 /// method's matrix, residuals and increments. When to stop is the steppers' business.
 #pragma once
 
-#include "lagen/integrate/band_matrix.hpp"
 #include "lagen/integrate/collocation.hpp"
+#include "lagen/integrate/jacobian_pattern.hpp"
 #include "lagen/integrate/retract.hpp"
 #include "lagen/lanes/lanes.hpp"
 
@@ -17,7 +17,7 @@ template <class Scheme, class M>
 class StageEquations {
     static_assert(!is_pack<typename M::Scalar>, "implicit methods iterate until one trajectory has converged: use them "
                                                 "with a scalar, and packs with explicit fixed-step methods");
-    static_assert(HasJacobian<M>,
+    static_assert(HasJacobian<M> || HasJacobianLater<M>,
                   "implicit methods need the exact Jacobian of the right-hand side: jacobian_values(t, s, values) with "
                   "jacobian_rows and jacobian_columns, as generated headers have them");
     static_assert(moves_by_sums<M>, "implicit methods move states by sums: use an explicit fixed-step method");
@@ -25,20 +25,28 @@ class StageEquations {
   public:
     using Real = typename M::Scalar;
     using State = typename M::State;
-    static constexpr std::size_t stages = Scheme::stages, n = static_cast<std::size_t>(M::dimension);
+    static constexpr std::size_t stages = Scheme::stages, n = size_of_state<M>;
     using Stages = std::array<State, stages>;
 
     StageEquations() : method_(Scheme::template coefficients<Real>()), modes_(modes<Scheme, Real>(method_.c)) {}
 
     [[nodiscard]] const Collocation<Real, stages>& method() const noexcept { return method_; }
 
-    /// Everything zero, with the number of lanes of `s`.
-    void begin(const State& s) noexcept
+    /// Everything zero, with the number of lanes of `s`; invalid_input where the model has no Jacobian.
+    Status begin(const M& model, const State& s) noexcept
     {
+        const Status status = pattern_.begin(model, values_);
+        if (status != Status::ok) return status;
+        for (auto& lu : real_) pattern_.begin(lu);
+        for (auto& lu : complex_) pattern_.begin(lu);
+        const auto lanes = static_cast<std::size_t>(s.size());
+        for (auto& w : w_real_) make_numbers(w, lanes, Real(0));
+        for (auto& w : w_complex_) make_numbers(w, lanes, Complex<Real>());
         const State zero = State::Zero(s.size());
         for (State& stage : slopes) stage = zero;
         for (State& stage : residuals) stage = zero;
         x_ = zero;
+        return Status::ok;
     }
 
     /// J at (t, s). Entries that are no numbers make the next decomposition fail.
@@ -72,22 +80,29 @@ class StageEquations {
     /// stage that cannot be evaluated. `lost` is the rounding error of s, small against it.
     Status evaluate(const M& model, const Real& t, const State& s, const State& lost, const Stages& z) noexcept
     {
+        auto&& x = held(x_);
+        auto&& from = held(s);
+        auto&& less = held(lost);
+        const auto& moves = held<0, stages>(z);
         for (std::size_t i = 0; i < stages; ++i) {
             for_lanes(s, [&]<int width>(Width<width>, Eigen::Index lane) {
-                store(x_, lane, load<width>(s, lane) + (load<width>(z[i], lane) - load<width>(lost, lane)));
+                store(x, lane, load<width>(from, lane) + (load<width>(moves[i], lane) - load<width>(less, lane)));
             });
             ++calls;
             const Status status = model.rhs(Real(t + method_.c[i] * h_), x_, slopes[i]);
             if (status != Status::ok) return status;
+            auto&& slope = held(slopes[i]);
             for_lanes(s, [&]<int width>(Width<width>, Eigen::Index lane) {
-                store(slopes[i], lane, method_.b[i] * load_fresh<width>(slopes[i], lane));
+                store(slope, lane, method_.b[i] * load_fresh<width>(slope, lane));
             });
         }
+        const auto& rates = held<0, stages>(slopes);
         write_out<stages>([&](auto i) {
+            auto&& residual = held(residuals[i]);
             for_lanes(s, [&]<int width>(Width<width>, Eigen::Index lane) {
-                Slice<State, width> sum = method_.mu[i][0] * load<width>(slopes[0], lane);
-                write_out<stages - 1>([&](auto j) { sum += method_.mu[i][j + 1] * load<width>(slopes[j + 1], lane); });
-                store(residuals[i], lane, times_length(sum) - load<width>(z[i], lane));
+                Slice<State, width> sum = method_.mu[i][0] * load<width>(rates[0], lane);
+                write_out<stages - 1>([&](auto j) { sum += method_.mu[i][j + 1] * load<width>(rates[j + 1], lane); });
+                store(residual, lane, times_length(sum) - load<width>(moves[i], lane));
             });
         });
         return Status::ok;
@@ -137,7 +152,7 @@ class StageEquations {
             const Real ratio = w / scale[static_cast<Eigen::Index>(lane)];
             sum += ratio * ratio;
         };
-        for (std::size_t lane = 0; lane < n; ++lane) {
+        for (std::size_t lane = 0; lane < lanes(); ++lane) {
             for (const auto& w : w_real_) add(w[lane], lane);
             for (const auto& w : w_complex_) {
                 add(w[lane].re, lane);
@@ -155,16 +170,16 @@ class StageEquations {
     /// Replaces `e` by (1 - h lambda J)^-1 e with the real eigenvalue.
     void solve_real(State& e) noexcept requires(Scheme::real_poles == 1)
     {
-        for (std::size_t lane = 0; lane < n; ++lane) w_real_[0][lane] = e[static_cast<Eigen::Index>(lane)];
+        for (std::size_t lane = 0; lane < lanes(); ++lane) w_real_[0][lane] = e[static_cast<Eigen::Index>(lane)];
         real_[0].solve(w_real_[0]);
-        for (std::size_t lane = 0; lane < n; ++lane) e[static_cast<Eigen::Index>(lane)] = w_real_[0][lane];
+        for (std::size_t lane = 0; lane < lanes(); ++lane) e[static_cast<Eigen::Index>(lane)] = w_real_[0][lane];
     }
 
     /// sizes_l = sum_m |J_lm| |s_m|.
     void row_sizes(const State& s, State& sizes) const noexcept
     {
         for_each_lane(sizes, [&](Eigen::Index lane) { sizes[lane] = Real(0); });
-        for_entries(
+        pattern_.for_entries(
             [&](std::size_t k, auto row, auto column) { sizes[row] += magnitude(values_[k]) * magnitude(s[column]); });
     }
 
@@ -172,33 +187,24 @@ class StageEquations {
     std::size_t calls = 0, iterations = 0, decompositions = 0;
 
   private:
-    /// A matrix whose band is narrow is decomposed inside it.
-    static constexpr BandOrder<n> band = band_order<n>(M::jacobian_rows, M::jacobian_columns);
     template <class Entry>
-    using Lu = std::conditional_t<is_narrow(band), BandLu<Entry, n, band>, MatrixLu<Entry, n>>;
+    using Lu = typename JacobianPattern<M>::template Lu<Entry>;
+
+    [[nodiscard]] std::size_t lanes() const noexcept { return static_cast<std::size_t>(x_.size()); }
 
     template <class Entry>
-    bool factor(Lu<Entry>& lu, const Entry& scale) noexcept
+    bool factor(Lu<Entry>& one_of_them, const Entry& scale) noexcept
     {
-        const Entry one = unit(scale);
-        lu.clear();
-        for (std::size_t i = 0; i < n; ++i) lu(i, i) = one;
-        for_entries([&](std::size_t k, auto row, auto column) {
-            Entry& entry = lu(static_cast<std::size_t>(row), static_cast<std::size_t>(column));
-            entry = entry - values_[k] * scale;
+        return visit_lu(one_of_them, [&](auto& lu) {
+            const Entry one = unit(scale);
+            lu.clear();
+            for (std::size_t i = 0; i < lanes(); ++i) lu(i, i) = one;
+            pattern_.for_entries([&](std::size_t k, auto row, auto column) {
+                Entry& entry = lu(static_cast<std::size_t>(row), static_cast<std::size_t>(column));
+                entry = entry - values_[k] * scale;
+            });
+            return lu.factor();
         });
-        return lu.factor();
-    }
-
-    /// f(k, row, column) for every entry of the Jacobian: a short one's are written out.
-    template <class Function>
-    [[gnu::always_inline]] static void for_entries(const Function& f) noexcept
-    {
-        constexpr std::size_t count = M::jacobian_rows.size();
-        if constexpr (count <= 24)
-            write_out<count>([&](auto k) { f(k, M::jacobian_rows[k], M::jacobian_columns[k]); });
-        else
-            for (std::size_t k = 0; k < count; ++k) f(k, M::jacobian_rows[k], M::jacobian_columns[k]);
     }
 
     static Real unit(const Real&) noexcept { return Real(1); }
@@ -212,11 +218,7 @@ class StageEquations {
         return sum;
     }
 
-    template <class Entry>
-    static Entry& at(std::array<Entry, n>& w, Eigen::Index lane) noexcept
-    {
-        return w[static_cast<std::size_t>(lane)];
-    }
+    [[nodiscard]] static auto& at(auto& w, Eigen::Index lane) noexcept { return w[static_cast<std::size_t>(lane)]; }
 
     /// The increment of stage i from what the modes have: a pair of conjugate ones counts twice, and 1/2 is the last
     /// entry of its vector.
@@ -245,11 +247,12 @@ class StageEquations {
 
     Collocation<Real, stages> method_;
     Modes<Scheme, Real> modes_;
-    std::array<Real, M::jacobian_rows.size()> values_{};
+    [[no_unique_address]] JacobianPattern<M> pattern_;
+    typename JacobianPattern<M>::Values values_{};
     std::array<Lu<Real>, Modes<Scheme, Real>::reals> real_;
     std::array<Lu<Complex<Real>>, Modes<Scheme, Real>::pairs> complex_;
-    std::array<std::array<Real, n>, Modes<Scheme, Real>::reals> w_real_;
-    std::array<std::array<Complex<Real>, n>, Modes<Scheme, Real>::pairs> w_complex_;
+    std::array<Numbers<Real, n>, Modes<Scheme, Real>::reals> w_real_;
+    std::array<Numbers<Complex<Real>, n>, Modes<Scheme, Real>::pairs> w_complex_;
     State x_;
     Real h_ = Real(0), high_ = Real(0), low_ = Real(0);
 };

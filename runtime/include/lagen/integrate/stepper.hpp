@@ -5,6 +5,8 @@
 ///   finish(model, t1, s1), accept()           the derivative at the end where it is needed; then the step counts
 ///   interpolate(model, t, s, h, s1, theta, out)   a value inside the last attempted step, before accept()
 ///   calls()                                   of the right-hand side so far
+/// A collocation method may have polynomial(theta, out), what the polynomial of the last step has more than its
+/// beginning; it answers whether there is one.
 /// Adaptive ones may choose their steps themselves: after_accepted(h, error), after_rejected(h, error),
 /// after_failure(h). Implicit ones count newton_iterations() and decompositions().
 /// One whose lanes can be trajectories of their own (lanes/abreast.hpp) says so by `abreast`, and over packs offers
@@ -42,6 +44,16 @@ struct Work {
         return all;
     }
 };
+
+/// The order of values inside a step: Stepper::dense_order, a function where it is known at run time.
+template <class Stepper>
+[[nodiscard]] std::size_t dense_order_of([[maybe_unused]] const Stepper& stepper) noexcept
+{
+    if constexpr (requires { stepper.dense_order(); })
+        return stepper.dense_order();
+    else
+        return static_cast<std::size_t>(Stepper::dense_order);
+}
 
 /// Of a method of fixed steps; a discrete motion has its own.
 template <class M, class Method>

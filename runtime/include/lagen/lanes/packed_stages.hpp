@@ -12,7 +12,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <type_traits>
 
@@ -80,6 +82,65 @@ concept TakesPacks = (std::is_same_v<typename M::Scalar, double> ||
     typename WithScalar<M, float>::type;
 };
 
+/// A model that says at run time whether it can be had over packs.
+template <class M>
+concept OffersPacks = requires(const M& model, const double* t, double* ds, std::uint8_t* status)
+{
+    requires std::same_as<decltype(model.takes_packs()), bool>;
+    model.template rhs_of_packs<4>(t, t, ds, status);
+};
+
+/// A model as a right-hand side over packs, with the parameters that it has at the start.
+template <class M, class P>
+class PackedModel {
+    using Model = typename WithScalar<M, P>::type;
+
+  public:
+    using Lanes = typename Model::State;
+
+    void begin(const M& model) noexcept
+    {
+        give_numbers(model, model_, [](P& to, const typename M::Scalar& from) { to = P(from); });
+    }
+    static constexpr bool is_offered() noexcept { return true; }
+
+    /// False where one of the first `count` lanes cannot be evaluated.
+    bool rhs(const M&, const P& t, const Lanes& x, Lanes& slopes, std::size_t count) const noexcept
+    {
+        const auto status = model_.rhs(t, x, slopes);
+        for (std::size_t i = 0; i < count; ++i)
+            if (status.lanes[i] != Status::ok) return false;
+        return true;
+    }
+
+  private:
+    Model model_{};
+};
+
+template <OffersPacks M, class P>
+class PackedModel<M, P> {
+    static constexpr int width = RealOf<P>::lanes;
+
+  public:
+    using Lanes = Eigen::Matrix<P, Eigen::Dynamic, 1>;
+
+    void begin(const M& model) noexcept { offered_ = model.takes_packs(); }
+    [[nodiscard]] bool is_offered() const noexcept { return offered_; }
+
+    bool rhs(const M& model, const P& t, const Lanes& x, Lanes& slopes, std::size_t count) const noexcept
+    {
+        std::array<std::uint8_t, static_cast<std::size_t>(width)> status{};
+        const auto numbers = [](auto* pack) { return reinterpret_cast<const double*>(pack); };
+        model.template rhs_of_packs<width>(numbers(&t), numbers(x.data()), reinterpret_cast<double*>(slopes.data()),
+                                           status.data());
+        return std::all_of(status.begin(), status.begin() + static_cast<std::ptrdiff_t>(count),
+                           [](std::uint8_t each) { return each == 0; });
+    }
+
+  private:
+    bool offered_ = false;
+};
+
 /// In the place of PackedStages where there are none.
 struct NoPacks {
     template <class Method>
@@ -95,7 +156,6 @@ class PackedStages {
     using Real = typename M::Scalar;
     static constexpr int width = static_cast<int>(std::bit_ceil(s));
     using P = Pack<Real, width>;
-    using Model = typename WithScalar<M, P>::type;
     using State = typename M::State;
 
     explicit PackedStages(const Collocation<Real, s>& method) noexcept
@@ -110,9 +170,11 @@ class PackedStages {
     /// Takes the parameters of `model`, and the number of lanes of a state.
     void begin(const M& model, Eigen::Index lanes) noexcept
     {
-        give_numbers(model, model_, [](P& to, const Real& from) { to = P(from); });
+        model_.begin(model);
         z_ = x_ = slopes_ = Lanes::Zero(lanes);
     }
+
+    [[nodiscard]] bool is_offered() const noexcept { return model_.is_offered(); }
 
     void load(const std::array<State, s>& z) noexcept
     {
@@ -130,12 +192,10 @@ class PackedStages {
     }
 
     /// slopes_i = b_i f(t + c_i h, s - lost + z_i); false where a stage cannot be evaluated.
-    bool evaluate(const Real& t, const Real& h, const State& state, const State& lost) noexcept
+    bool evaluate(const M& model, const Real& t, const Real& h, const State& state, const State& lost) noexcept
     {
         for (Eigen::Index lane = 0; lane < z_.size(); ++lane) x_[lane] = P(state[lane]) + (z_[lane] - P(lost[lane]));
-        const auto status = model_.rhs(P(t) + c_ * P(h), x_, slopes_);
-        for (std::size_t i = 0; i < s; ++i)
-            if (status.lanes[i] != Status::ok) return false;
+        if (!model_.rhs(model, P(t) + c_ * P(h), x_, slopes_, s)) return false;
         for (Eigen::Index lane = 0; lane < z_.size(); ++lane) slopes_[lane] *= b_;
         return true;
     }
@@ -168,7 +228,7 @@ class PackedStages {
 
   private:
     /// Stage i of lane l of the state is lane i of entry l; lanes that are no stages have weight 0.
-    using Lanes = typename Model::State;
+    using Lanes = typename PackedModel<M, P>::Lanes;
 
     // What a register holds: a compiler keeps longer vectors in memory.
 #if defined(__AVX512F__)
@@ -204,7 +264,7 @@ class PackedStages {
         return most;
     }
 
-    Model model_{};
+    PackedModel<M, P> model_;
     P c_{}, b_{};
     std::array<P, s> mu_{}; ///< mu_ij is lane i of entry j
     Lanes z_, x_, slopes_;
