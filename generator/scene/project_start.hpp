@@ -44,8 +44,8 @@ class ConstraintFunctions {
 };
 
 /// Moves the base coordinates of `values` onto the constraints by Newton steps of least Euclidean length, on the levels
-/// of the Casimirs, declared or found, that are no functions of the constraints; true where they were reached, to 1e-17 of their
-/// scale or as near as rounding lets them come.
+/// of the Casimirs, declared or found, that are no functions of the constraints; true where they were reached, to 1e-17
+/// of their scale or as near as rounding lets them come.
 [[nodiscard]] bool project_start(const ConstraintFunctions& constraints, Values& values);
 
 } // namespace lagen
