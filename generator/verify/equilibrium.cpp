@@ -198,6 +198,10 @@ class RestSearch {
         const bool has_leaf = !equations_.fields.empty() && dimension_ < equations_.base.size();
         const Doubles on_leaf = has_leaf ? steps_.least_squares({first, last}, residual) : Doubles(first, last);
         const proof::Residual there = residual(on_leaf);
+        if (!std::ranges::all_of(there.slopes, [](double each) { return std::isfinite(each); }))
+            if (const auto term = proof::rough_term(graph_, conditions_, moving_, exact_balls(on_leaf), false))
+                return fmt::format("no equilibrium was found: {} has no derivatives where the search begins",
+                                   to_text(graph_, *term, longest_term));
         if (!has_functions_ && !is_root(there, on_leaf)) return off_by(there);
         const auto found = proof::least_squares(on_leaf, residual);
         if (!found) return "no equilibrium was found: Newton's method leaves what the rates are defined on";

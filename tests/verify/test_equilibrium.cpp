@@ -184,6 +184,14 @@ TEST_CASE("a term with a kink or a jump, or one that ends at an equilibrium, is 
     }
 }
 
+TEST_CASE("a search that begins at a term without derivatives names it")
+{
+    SmallMotion orifice({"y", "v"}, {}, {"v", "-sqrt(max(0, y)) - (y + 1)/4"});
+    CHECK_THROWS_WITH(orifice.near({0, 0.1}),
+                      Catch::Contains("no equilibrium was found: sqrt(max(0, y)) has no derivatives where the search"));
+    CHECK(orifice.near({-0.5, 0.1}).A == std::vector<std::vector<double>>{{0, 1}, {-0.25, 0}});
+}
+
 TEST_CASE("rates without a zero, and a zero outside the domain, are no equilibrium")
 {
     SmallMotion none({"x", "v"}, {}, {"v", "1 + x^2"});
