@@ -41,6 +41,7 @@ CompiledRun integrate_compiled(const std::string& path, const std::string& type,
         [&](auto method) {
             detail::DrivePlan<CompiledModel> plan;
             plan.model = std::move(loaded.model);
+            method.lanes = plan.model.lanes();
             run.complaint = detail::make_plan(given, plan, method);
             if (!run.complaint.empty()) return;
             Status status = Status::ok;

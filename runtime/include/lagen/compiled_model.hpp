@@ -133,7 +133,11 @@ class CompiledModel {
 
     [[nodiscard]] [[gnu::always_inline]] Status rhs(double t, const State& s, State& ds) const noexcept
     {
-        return status_of(rhs_(instance_, t, s.data(), ds.data()));
+        return rhs(t, s.data(), ds.data());
+    }
+    [[nodiscard]] [[gnu::always_inline]] Status rhs(double t, const double* s, double* ds) const noexcept
+    {
+        return status_of(rhs_(instance_, t, s, ds));
     }
 
     /// The same of `width` states at once, 4 or 8, as lagen/compiled_model.h says; takes_packs() tells whether it is
@@ -215,7 +219,11 @@ class CompiledModel {
     }
     void jacobian_values(double t, const State& s, std::span<double> values) const noexcept
     {
-        jacobian().values(jacobian_->instance.get(), t, s.data(), values.data());
+        jacobian_values(t, s.data(), values);
+    }
+    void jacobian_values(double t, const double* s, std::span<double> values) const noexcept
+    {
+        jacobian().values(jacobian_->instance.get(), t, s, values.data());
     }
 
     // ---- Taylor coefficients ----
