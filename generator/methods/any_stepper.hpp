@@ -8,8 +8,11 @@
 #include "lagen/integrate/control.hpp"
 #include "lagen/integrate/stepper.hpp"
 
+#include "methods/in_place.hpp"
+
 #include <cstddef>
 #include <memory>
+#include <type_traits>
 #include <utility>
 
 namespace lagen {
@@ -48,10 +51,13 @@ class StepperFace {
     StepperFace(const StepperFace&) = default;
 };
 
-/// The stepper of one method. Adaptive ones that leave the lengths to the loop bring its controller along.
-template <class Method>
+/// The stepper of one method, of a model of n lanes or of any number. Adaptive ones that leave the lengths to the loop
+/// bring its controller along.
+template <class Method, int n = Eigen::Dynamic>
 class StepperOf final : public StepperFace {
-    using Stepper = typename Method::template Stepper<CompiledModel>;
+    using Lanes = InPlace<n>;
+    using Model = std::conditional_t<n == Eigen::Dynamic, const CompiledModel&, const Lanes>;
+    using Stepper = typename Method::template Stepper<std::remove_cvref_t<Model>>;
     static constexpr bool adaptive = Stepper::adaptive;
     static constexpr bool chooses_lengths = requires(Stepper stepper, double h) { stepper.after_failure(h); };
 
@@ -63,10 +69,14 @@ class StepperOf final : public StepperFace {
     }
 
     [[nodiscard]] std::unique_ptr<StepperFace> copy() const override { return std::make_unique<StepperOf>(*this); }
-    Status begin(const CompiledModel& model, double t, const State& s) override { return stepper_.begin(model, t, s); }
+    Status begin(const CompiledModel& model, double t, const State& s) override
+    {
+        derivative_ = s;
+        return stepper_.begin(Model(model), t, Lanes::in_place(s));
+    }
     Status attempt(const CompiledModel& model, double t, const State& s, double h, State& s1) noexcept override
     {
-        return stepper_.attempt(model, t, s, h, s1);
+        return stepper_.attempt(Model(model), t, Lanes::in_place(s), h, Lanes::in_place(s1));
     }
     void accept() noexcept override { stepper_.accept(); }
     void forget() noexcept override
@@ -76,20 +86,22 @@ class StepperOf final : public StepperFace {
     Status interpolate(const CompiledModel& model, double t, const State& s, double h, const State& s1, double theta,
                        State& out) noexcept override
     {
-        return stepper_.interpolate(model, t, s, h, s1, theta, out);
+        return stepper_.interpolate(Model(model), t, Lanes::in_place(s), h, Lanes::in_place(s1), theta,
+                                    Lanes::in_place(out));
     }
     [[nodiscard]] detail::Work work() const noexcept override { return detail::Work().with(stepper_); }
     [[nodiscard]] std::size_t dense_order() const noexcept override { return detail::dense_order_of(stepper_); }
     bool polynomial(double theta, State& out) const noexcept override
     {
-        if constexpr (requires { stepper_.polynomial(theta, out); }) return stepper_.polynomial(theta, out);
+        if constexpr (requires { stepper_.polynomial(theta, Lanes::in_place(out)); })
+            return stepper_.polynomial(theta, Lanes::in_place(out));
         return false;
     }
 
     [[nodiscard]] double first_step(const CompiledModel& model, double t, double length,
                                     const State& s) noexcept override
     {
-        if constexpr (adaptive) return stepper_.first_step(model, t, length, s);
+        if constexpr (adaptive) return stepper_.first_step(Model(model), t, length, Lanes::in_place(s));
         return length;
     }
     [[nodiscard]] double error() const noexcept override
@@ -99,13 +111,14 @@ class StepperOf final : public StepperFace {
     }
     Status finish(const CompiledModel& model, double t1, const State& s1) noexcept override
     {
-        if constexpr (adaptive) return stepper_.finish(model, t1, s1);
+        if constexpr (adaptive) return stepper_.finish(Model(model), t1, Lanes::in_place(s1));
         return Status::ok;
     }
     [[nodiscard]] const State& derivative() const noexcept override
     {
-        if constexpr (adaptive) return stepper_.derivative();
-        return none_;
+        if constexpr (adaptive && n == Eigen::Dynamic) return stepper_.derivative();
+        if constexpr (adaptive && n != Eigen::Dynamic) derivative_ = stepper_.derivative();
+        return derivative_;
     }
     [[nodiscard]] double after_accepted(double h, double error) noexcept override
     {
@@ -126,7 +139,7 @@ class StepperOf final : public StepperFace {
   private:
     Stepper stepper_;
     detail::Controller<double> lengths_{StepControl{}, 5, 0.0};
-    State none_;
+    mutable State derivative_; ///< a copy, of states in place
 };
 
 /// The stepper that the loop over steps has.
@@ -194,9 +207,10 @@ class AnyStepper {
 
 /// An adaptive method, by the function that makes its stepper and its own numbers of step control.
 struct AnyAdaptive {
-    std::unique_ptr<StepperFace> (*make)(double relative, double absolute) = nullptr;
+    std::unique_ptr<StepperFace> (*make)(Eigen::Index lanes, double relative, double absolute) = nullptr;
     StepControl numbers{};
     double tolerance = 1e-9, relative = -1, absolute = -1;
+    Eigen::Index lanes = 0; ///< of the model
 
     [[nodiscard]] StepControl control() const noexcept
     {
@@ -205,37 +219,50 @@ struct AnyAdaptive {
         all.absolute = absolute;
         return all;
     }
-    [[nodiscard]] std::unique_ptr<StepperFace> stepper() const { return make(relative, absolute); }
+    [[nodiscard]] std::unique_ptr<StepperFace> stepper() const { return make(lanes, relative, absolute); }
     template <class M>
     using Stepper = AnyStepper<true>;
 };
 
 /// A method of fixed steps.
 struct AnyFixed {
-    std::unique_ptr<StepperFace> (*make)() = nullptr;
+    std::unique_ptr<StepperFace> (*make)(Eigen::Index lanes) = nullptr;
     double step = 0;
+    Eigen::Index lanes = 0; ///< of the model
 
-    [[nodiscard]] std::unique_ptr<StepperFace> stepper() const { return make(); }
+    [[nodiscard]] std::unique_ptr<StepperFace> stepper() const { return make(lanes); }
     template <class M>
     using Stepper = AnyStepper<false>;
 };
 
-/// The method of this type, AnyAdaptive or AnyFixed.
-template <class Method>
+/// The stepper of a method for so many lanes: one of those in place where it is among them.
+template <int... in_place, class Method>
+[[nodiscard]] std::unique_ptr<StepperFace> stepper_of(const Method& method, Eigen::Index lanes)
+{
+    std::unique_ptr<StepperFace> found;
+    static_cast<void>(((lanes == in_place && (found = std::make_unique<StepperOf<Method, in_place>>(method))) || ...));
+    if (!found) found = std::make_unique<StepperOf<Method>>(method);
+    return found;
+}
+
+/// The method of this type, AnyAdaptive or AnyFixed; with steppers of their own for these numbers of lanes.
+template <class Method, int... in_place>
 [[nodiscard]] AnyAdaptive any_adaptive()
 {
-    return {[](double relative, double absolute) -> std::unique_ptr<StepperFace> {
+    return {[](Eigen::Index lanes, double relative, double absolute) -> std::unique_ptr<StepperFace> {
                 Method method{};
                 method.relative = relative;
                 method.absolute = absolute;
-                return std::make_unique<StepperOf<Method>>(method);
+                return stepper_of<in_place...>(method, lanes);
             },
             Method{}.control()};
 }
-template <class Method>
+template <class Method, int... in_place>
 [[nodiscard]] AnyFixed any_fixed()
 {
-    return {[]() -> std::unique_ptr<StepperFace> { return std::make_unique<StepperOf<Method>>(Method{.step = 1}); }};
+    return {[](Eigen::Index lanes) -> std::unique_ptr<StepperFace> {
+        return stepper_of<in_place...>(Method{.step = 1}, lanes);
+    }};
 }
 
 } // namespace lagen

@@ -32,13 +32,14 @@ lagen::StabilityChart tiny_chart()
     chart.followed = "energy";
     chart.axes = {{"step", {0.5, 1, 1.5}}, {"initial.x[1]", {2, 4}, "initial.x_1"}};
     chart.columns = {{2, 1, 9}, {4, 1, 9}};
-    chart.methods = {{"leapfrog_kdk",
-                      {{"bounded", 9, 0.25, 0.125},
-                       {"drifting", 9, 1, 0.5},
-                       {"blown_up", 3, 200, 0},
-                       {"bounded", 9, 0.25, 0},
-                       {"left_domain", 2, 0, 0},
-                       {"newton_diverged", 0, 0, 0, "no_solution"}},
+    chart.methods = {{{"leapfrog_kdk",
+                       {{"bounded", 9, 0.25, 0.125},
+                        {"drifting", 9, 1, 0.5},
+                        {"blown_up", 3, 200, 0},
+                        {"bounded", 9, 0.25, 0},
+                        {"left_domain", 2, 0, 0},
+                        {"newton_diverged", 0, 0, 0, "no_solution"}},
+                       {}},
                       {1.0, std::nullopt}}};
     chart.left_out = {{"dop853", "dop853 takes a tolerance, and a stability chart is over steps"}};
     return chart;

@@ -136,7 +136,11 @@ class CompiledModel {
     {
         if (ds.size() != lanes_) [[unlikely]]
             ds.resize(lanes_);
-        return status_of(rhs_(instance_, t, s.data(), ds.data()));
+        return rhs(t, s.data(), ds.data());
+    }
+    [[nodiscard]] [[gnu::always_inline]] Status rhs(double t, const double* s, double* ds) const noexcept
+    {
+        return status_of(rhs_(instance_, t, s, ds));
     }
 
     /// The same of `width` states at once, 4 or 8, as lagen/compiled_model.h says; takes_packs() tells whether it is
@@ -218,7 +222,11 @@ class CompiledModel {
     }
     void jacobian_values(double t, const State& s, std::span<double> values) const noexcept
     {
-        jacobian().values(jacobian_->instance.get(), t, s.data(), values.data());
+        jacobian_values(t, s.data(), values);
+    }
+    void jacobian_values(double t, const double* s, std::span<double> values) const noexcept
+    {
+        jacobian().values(jacobian_->instance.get(), t, s, values.data());
     }
 
     // ---- Taylor coefficients ----

@@ -78,12 +78,15 @@ template <class Lu, class Function>
         return f(lu);
 }
 
+/// A model of run-time size may have its number of lanes from a type all the same: the matrix is a full one then.
 template <HasJacobianLater M>
 class JacobianPattern<M> {
+    static constexpr std::size_t n = size_of_state<M>;
+
   public:
     using Values = std::vector<typename M::Scalar>;
     template <class Entry>
-    using Lu = ChosenLu<Entry>;
+    using Lu = std::conditional_t<n == sized_later, ChosenLu<Entry>, MatrixLu<Entry, n>>;
 
     /// invalid_input where the model has no Jacobian.
     Status begin(const M& model, Values& values)
@@ -95,10 +98,9 @@ class JacobianPattern<M> {
         make_numbers(values, rows_.size(), typename M::Scalar(0));
         return Status::ok;
     }
-    template <class Entry>
-    void begin(ChosenLu<Entry>& lu) const
+    void begin(auto& lu) const
     {
-        lu.begin(band_);
+        if constexpr (n == sized_later) lu.begin(band_);
     }
 
     template <class Function>
