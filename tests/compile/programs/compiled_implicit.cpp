@@ -1,46 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Implicit methods on compiled models beside the classes that they were made of: the bits of runs, memory in steps.
-#define EIGEN_RUNTIME_NO_MALLOC
+#include "counted_memory.hpp"
+
 #include "heavy_top.hpp"
 #include "implicit_models.hpp"
 
-#include "lagen/compiled_model.hpp"
-#include "lagen/integrate.hpp"
-
-#include <cstdio>
-#include <cstdlib>
-#include <cstring>
-#include <filesystem>
-#include <new>
-
 namespace {
-
-std::size_t allocations = 0;
-
-} // namespace
-
-[[gnu::noinline]] void* operator new(std::size_t size)
-{
-    ++allocations;
-    if (void* memory = std::malloc(size)) return memory;
-    throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept
-{
-    std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept
-{
-    std::free(memory);
-}
-
-namespace {
-
-bool same_bits(const auto& a, const auto& b)
-{
-    return a.size() == b.size() &&
-           std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
-}
 
 /// A class, the same model compiled, and where runs of it start and end.
 template <class M>
@@ -61,15 +26,10 @@ struct Pair {
         same = same && a.rhs_calls == b.rhs_calls && a.newton_iterations == b.newton_iterations;
         same = same && a.decompositions == b.decompositions && a.states.size() == b.states.size();
         for (std::size_t k = 0; same && k < a.states.size(); ++k) same = same_bits(a.states[k], b.states[k]);
-        lagen::Integrator integrator(compiled, v, 0.0, method);
-        (void)integrator.step();
-        const std::size_t before = allocations;
-        Eigen::internal::set_is_malloc_allowed(false);
-        bool good = true;
-        for (int k = 0; k < 100 && good; ++k) good = integrator.step() == lagen::Status::ok;
-        Eigen::internal::set_is_malloc_allowed(true);
-        std::printf("%s %s %s %s %zu %s\n", name, method_name, to_text(a.status()), same ? "same" : "other",
-                    allocations - before, good ? "ok" : "failed");
+        bool good = false;
+        const std::size_t taken = memory_of_steps(compiled, v, method, good);
+        std::printf("%s %s %s %s %zu %s\n", name, method_name, to_text(a.status()), same ? "same" : "other", taken,
+                    good ? "ok" : "failed");
     }
 };
 

@@ -1,48 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// A compiled model beside the class that it was made of: what loading answers, the bits of runs, memory in steps.
-#define EIGEN_RUNTIME_NO_MALLOC
+#include "counted_memory.hpp"
+
 #include "heavy_top.hpp"
-
-#include "lagen/compiled_model.hpp"
-#include "lagen/integrate.hpp"
-
-#include <cstdio>
-#include <cstdlib>
-#include <cstring>
-#include <filesystem>
-#include <new>
-
-namespace {
-
-std::size_t allocations = 0;
-
-} // namespace
-
-[[gnu::noinline]] void* operator new(std::size_t size)
-{
-    ++allocations;
-    if (void* memory = std::malloc(size)) return memory;
-    throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept
-{
-    std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept
-{
-    std::free(memory);
-}
 
 namespace {
 
 using Top = lagen::models::heavy_top<double>;
-
-template <class A, class B>
-bool same_bits(const A& a, const B& b)
-{
-    return a.size() == b.size() &&
-           std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
-}
 
 /// The same run of both: their ends, rows and counts.
 template <class Method>
@@ -63,14 +27,9 @@ template <class Method>
 void count_memory(const char* name, const lagen::CompiledModel& compiled, const Method& method)
 {
     const Eigen::VectorXd s = (Eigen::VectorXd(6) << 0.1, 0.6, 0.8, 0.3, -0.2, 5).finished();
-    lagen::Integrator integrator(compiled, s, 0.0, method);
-    (void)integrator.step();
-    const std::size_t before = allocations;
-    Eigen::internal::set_is_malloc_allowed(false);
-    bool good = true;
-    for (int k = 0; k < 100 && good; ++k) good = integrator.step() == lagen::Status::ok;
-    Eigen::internal::set_is_malloc_allowed(true);
-    std::printf("memory %s %zu %s\n", name, allocations - before, good ? "ok" : "failed");
+    bool good = false;
+    const std::size_t taken = memory_of_steps(compiled, s, method, good);
+    std::printf("memory %s %zu %s\n", name, taken, good ? "ok" : "failed");
 }
 
 } // namespace

@@ -1,51 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Taylor's method over compiled models beside the classes that they were made of: bits, events, domains, memory.
-#define EIGEN_RUNTIME_NO_MALLOC
+#include "counted_memory.hpp"
+
 #include "heavy_top.hpp"
 
-#include "lagen/compiled_model.hpp"
-#include "lagen/integrate.hpp"
-
 #include "compile/programs/compiled_series_models.hpp"
-
-#include <cstdio>
-#include <cstdlib>
-#include <cstring>
-#include <filesystem>
-#include <new>
-
-namespace {
-
-std::size_t allocations = 0;
-
-} // namespace
-
-[[gnu::noinline]] void* operator new(std::size_t size)
-{
-    ++allocations;
-    if (void* memory = std::malloc(size)) return memory;
-    throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept
-{
-    std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept
-{
-    std::free(memory);
-}
 
 namespace {
 
 using lagen::CompiledModel;
 using lagen::Taylor;
-
-template <class A, class B>
-bool same_bits(const A& a, const B& b)
-{
-    return a.size() == b.size() &&
-           std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
-}
 
 CompiledModel loaded(const char* name)
 {
@@ -87,15 +51,9 @@ void compare(const char* name, const M& model, const typename M::State& s, doubl
 
 void count_memory(const char* name, const Eigen::VectorXd& s)
 {
-    const CompiledModel compiled = loaded(name);
-    lagen::Integrator integrator(compiled, s, 0.0, Taylor{.tolerance = 1e-12});
-    (void)integrator.step();
-    const std::size_t before = allocations;
-    Eigen::internal::set_is_malloc_allowed(false);
-    bool good = true;
-    for (int k = 0; k < 100 && good; ++k) good = integrator.step() == lagen::Status::ok;
-    Eigen::internal::set_is_malloc_allowed(true);
-    std::printf("memory %s %zu %s\n", name, allocations - before, good ? "ok" : "failed");
+    bool good = false;
+    const std::size_t taken = memory_of_steps(loaded(name), s, Taylor{.tolerance = 1e-12}, good);
+    std::printf("memory %s %zu %s\n", name, taken, good ? "ok" : "failed");
 }
 
 /// Of a run that looks for an event in every step and meets none: a longer one takes no more.
