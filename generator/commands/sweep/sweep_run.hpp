@@ -6,7 +6,7 @@
 #include "commands/sweep/sweep_file.hpp"
 #include "commands/sweep/sweep_progress.hpp"
 #include "commands/sweep/sweep_rows.hpp"
-#include "lagen_sweep/job.hpp"
+#include "lagen_run/job.hpp"
 
 #include <deque>
 #include <set>

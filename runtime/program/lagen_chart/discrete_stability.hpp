@@ -102,7 +102,7 @@ ColumnFigures figures_along(const DiscreteRequest<M>& request, std::size_t first
 }
 
 template <class M>
-Fate discrete_fate(const DiscreteRequest<M>& request, const StabilityColumn<M>& cell, double scale)
+StabilityCell discrete_fate(const DiscreteRequest<M>& request, const StabilityColumn<M>& cell, double scale)
 {
     const StabilityRequest& common = request.common;
     Integrator run(cell.model, cell.start, common.start, Discrete{});
@@ -167,8 +167,7 @@ int chart_discrete_stability(const char* name, int argc, char** argv)
         found.columns.push_back(chart::figures_along(request, j * steps));
     chart::MethodFates fates{name, {}, {}};
     for (std::size_t k = 0; k < columns * steps; ++k)
-        fates.cells.push_back(
-            chart::cell_of(chart::discrete_fate(request, request.cells[k], found.columns[k / steps].scale)));
+        fates.cells.push_back(chart::discrete_fate(request, request.cells[k], found.columns[k / steps].scale));
     for (std::size_t j = 0; j < columns; ++j) fates.folds.push_back(chart::first_fold(request, j * steps));
     found.methods.push_back(std::move(fates));
     chart::answer(found);

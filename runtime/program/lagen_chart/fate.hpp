@@ -12,7 +12,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
-#include <string_view>
 
 namespace lagen::chart {
 
@@ -32,12 +31,6 @@ struct Range {
         largest = std::max(largest, value);
     }
     [[nodiscard]] double width() const { return largest - least; }
-};
-
-struct Fate {
-    const char* outcome = "bounded";
-    double t = 0, error = 0, drift = 0;
-    Status status = Status::ok; ///< of the run
 };
 
 inline const char* outcome_of(Status status)
@@ -96,36 +89,35 @@ class FateWatch {
 
     void stop(Status status)
     {
-        fate_.status = status;
+        fate_.status = to_text(status);
         fate_.outcome = outcome_of(status);
     }
 
-    /// Of a run that ended at t.
-    [[nodiscard]] Fate fate(double t)
+    /// Of a run that ended at t; error and drift to six digits.
+    [[nodiscard]] StabilityCell fate(double t)
     {
         fate_.t = t;
-        if (std::string_view(fate_.outcome) != "bounded" || !conserved_) return fate_;
-        if (fate_.error > swing_window || goes_away(parts_, from_, scale_, fate_.drift)) fate_.outcome = "drifting";
-        fate_.drift /= 2 * third_;
+        if (fate_.outcome == "bounded" && conserved_) {
+            if (fate_.error > swing_window || goes_away(parts_, from_, scale_, fate_.drift)) fate_.outcome = "drifting";
+            fate_.drift /= 2 * third_;
+        }
+        fate_.error = six_digits(fate_.error);
+        fate_.drift = six_digits(fate_.drift);
         return fate_;
     }
 
   private:
-    double from_, scale_, third_;
-    bool conserved_;
-    Fate fate_;
-    std::array<Range, 3> parts_;
-};
-
-/// Error and drift to six digits.
-inline StabilityCell cell_of(const Fate& fate)
-{
-    const auto six_digits = [](double x) {
+    static double six_digits(double x)
+    {
         char text[32];
         std::snprintf(text, sizeof text, "%.6g", x);
         return std::strtod(text, nullptr);
-    };
-    return {fate.outcome, fate.t, six_digits(fate.error), six_digits(fate.drift), to_text(fate.status)};
-}
+    }
+
+    double from_, scale_, third_;
+    bool conserved_;
+    StabilityCell fate_{.outcome = "bounded"};
+    std::array<Range, 3> parts_;
+};
 
 } // namespace lagen::chart

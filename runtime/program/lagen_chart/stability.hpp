@@ -116,7 +116,7 @@ void look_at(const StabilityRequest& request, StabilityColumn<M>& column)
 }
 
 template <class M, class Method>
-Fate fate_of(const StabilityRequest& request, const StabilityColumn<M>& column, double step)
+StabilityCell fate_of(const StabilityRequest& request, const StabilityColumn<M>& column, double step)
 {
     Integrator integrator(column.model, column.start, request.start, Method{.step = step});
     const double length = request.end - request.start;
@@ -142,7 +142,7 @@ MethodFates fates_of(const StabilityRequest& request, const std::vector<Stabilit
     MethodFates fates{std::string(name), {}, {}};
     for (const StabilityColumn<M>& column : columns)
         for (const double step : request.steps)
-            fates.cells.push_back(cell_of(fate_of<M, Method>(request, column, step)));
+            fates.cells.push_back(fate_of<M, Method>(request, column, step));
     return fates;
 }
 

@@ -67,6 +67,14 @@ struct RunJob {
     }
 };
 
+/// What is the same for all trajectories of a sweep: events, columns and the kind of the rows.
+struct SweepJob {
+    RunJob run;
+    std::size_t threads = 0; ///< 0: as many as the machine gives this process
+
+    static void each(auto& self, auto& archive) { archive(self.run, self.threads); }
+};
+
 /// Takes the rows of a run, one after another: t, then the columns.
 using RowTaker = std::function<void(std::span<const double>)>;
 

@@ -21,7 +21,6 @@
 #include "lagen/lanes/abreast.hpp"
 #include "lagen_run/driver.hpp"
 #include "lagen_run/text.hpp"
-#include "lagen_sweep/job.hpp"
 #include "lagen_sweep/record.hpp"
 
 #include <algorithm>
