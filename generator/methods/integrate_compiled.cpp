@@ -13,7 +13,7 @@ namespace {
 const ListedMethod* find(const std::string& type)
 {
     for (const auto family : {fixed_step_methods(), pair_methods(), verner_methods(), nystrom_methods(),
-                              implicit_methods(), taylor_methods()})
+                              implicit_methods(), splitting_methods(), taylor_methods()})
         for (const ListedMethod& each : family)
             if (type == each.type) return &each;
     return nullptr;

@@ -25,6 +25,7 @@ struct ListedMethod {
 [[nodiscard]] std::span<const ListedMethod> verner_methods();
 [[nodiscard]] std::span<const ListedMethod> nystrom_methods();
 [[nodiscard]] std::span<const ListedMethod> implicit_methods();
+[[nodiscard]] std::span<const ListedMethod> splitting_methods();
 [[nodiscard]] std::span<const ListedMethod> taylor_methods();
 
 } // namespace lagen

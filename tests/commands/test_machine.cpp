@@ -28,10 +28,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A splitting is compiled with its model.
+/// A splitting whose steps are scaled is compiled with its model.
 std::vector<std::string> by_splitting(std::vector<std::string> arguments)
 {
-    for (const char* word : {"--method", "leapfrog_kdk", "--step", "0.001"}) arguments.emplace_back(word);
+    for (const char* word : {"--method", "leapfrog_kdk", "--step", "0.001", "--time-scale", "1"})
+        arguments.emplace_back(word);
     return arguments;
 }
 

@@ -33,22 +33,30 @@ TEST_CASE("methods over compiled models are compiled with the options that round
 TEST_CASE("the rows of a run by a method of lagen are those of the program of a sweep", "[run]")
 {
     const std::string folder = fresh_folder();
-    const std::pair<const char*, std::vector<std::string>> asked[] = {
-        {"Rk4", {"--method", "rk4", "--step", "0.01"}},
-        {"Dop853", {"--method", "dop853"}},
-        {"Gauss4", {"--method", "gauss4", "--step", "0.01"}},
-        {"Gauss8", {"--method", "gauss8", "--step", "0.02"}},
-        {"Radau5", {"--method", "radau5"}},
-        {"Taylor", {"--method", "taylor"}}};
-    for (const auto& [type, method] : asked) {
+    struct Asked {
+        const char* type;
+        std::vector<std::string> method;
+        std::string model = "heavy_top", parameter = "mgl";
+    };
+    const Asked asked[] = {{"Rk4", {"--method", "rk4", "--step", "0.01"}},
+                           {"Dop853", {"--method", "dop853"}},
+                           {"Gauss4", {"--method", "gauss4", "--step", "0.01"}},
+                           {"Gauss8", {"--method", "gauss8", "--step", "0.02"}},
+                           {"Radau5", {"--method", "radau5"}},
+                           {"Taylor", {"--method", "taylor"}},
+                           {"Yoshida6", {"--method", "yoshida6", "--step", "0.02"}, "pleiades", "m[1]"},
+                           {"Srkn6", {"--method", "srkn6", "--step", "0.02"}, "kepler", "k"}};
+    for (const auto& [type, method, model, parameter] : asked) {
         INFO(type);
         REQUIRE(integrates_compiled(type));
-        std::vector<std::string> once{"run", "heavy_top.toml", "--t-end", "3", "--at", "3", "--no-second-run"};
+        const std::string file = std::string(LAGEN_SOURCE_DIR "/models/") + model + ".toml";
+        std::vector<std::string> once{"run", file, "--t-end", "3", "--at", "3", "--no-second-run"};
         once.insert(once.end(), method.begin(), method.end());
+        once.insert(once.end(), {"--set", parameter + "=1.7"});
         const Outcome run = call(once);
+        INFO(run.err);
         REQUIRE(run.code == 0);
-        std::vector<std::string> many{
-            "sweep", models_folder() + "/heavy_top.toml", "--t-end", "3", "--set", "mgl=1.7:1.7:1", "-o", "a.csv"};
+        std::vector<std::string> many{"sweep", file, "--t-end", "3", "--set", parameter + "=1.7:1.7:1", "-o", "a.csv"};
         many.insert(many.end(), method.begin(), method.end());
         const Outcome sweep = call(many, {.folder = folder});
         INFO(sweep.err);

@@ -192,12 +192,13 @@ SceneText scene_text(const CheckedModel& checked, const Scene& scene, const std:
     if (takes_series) request.with = {"taylor"};
     if (takes_series && !scene.events.empty()) request.with.emplace_back("event_series");
     const std::optional<KernelsAsked> asked = integrates_compiled(method.type);
-    const bool is_model = !driver.abreast && request.time_scale == nullptr && asked;
+    bool is_model = !driver.abreast && request.time_scale == nullptr && asked;
     if (is_model) {
         for (const char* kernel : kernels_no_run_asks_for) request.without.emplace_back(kernel);
         if (!asked->jacobian) request.without.emplace_back("jacobian");
     }
     Generated generated = generate(checked, request);
+    is_model = is_model && (generated.module.flows.count == 0 || method.affine); // exact flows are functions of a class
     ProgramText text{std::move(generated.header),
                      is_model ? model_text(generated.module.name, asked->packs)
                               : program_text(driver, generated.module.name, method, request.time_scale != nullptr)};

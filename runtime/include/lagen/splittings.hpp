@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// Partitioned (splitting) methods with a fixed step, `lagen::KahanLi8{.step = 0.1}`, for separable systems
 ///   xdot = f(y, t),   ydot = g(x, t),
-/// where x are the first M::base_dimension lanes and y the others: compositions of drifts x += a h f(y) and kicks
+/// where x are the base lanes, which are the first ones, and y the others: compositions of drifts x += a h f(y) and kicks
 /// y += b h g(x) in turn. Symplectic where x and y are canonical coordinates. Drifts have their own clock, which the
 /// kicks move, and kicks one that the drifts move: both are exact flows then, and the order is full where f and g
 /// depend on time.
@@ -22,6 +22,7 @@
 
 #include "lagen/integrate/flow_stepper.hpp"
 #include "lagen/integrate/retract.hpp"
+#include "lagen/integrate/sizes.hpp"
 #include "lagen/integrate/splitting_coefficients.hpp"
 #include "lagen/lanes/lanes.hpp"
 #include "lagen/run.hpp"
@@ -49,8 +50,9 @@ struct LeapfrogKdk {
 /// The stepper of a splitting method: see integrate/stepper.hpp for what is asked of it.
 template <class Splitting, class M>
 class SplittingStepper {
-    static_assert(M::base_dimension > 0 && M::base_dimension < M::dimension,
-                  "a partitioned method needs a model with base and fibre lanes");
+    static constexpr std::size_t base = detail::base_size<M>;
+    static constexpr std::size_t rest = base == detail::sized_later ? base : detail::size_of_state<M> - base;
+    static_assert(base > 0 && rest > 0, "a partitioned method needs a model with base and fibre lanes");
     static_assert(moves_by_sums<M>, "a partitioned method moves base and fibre lanes by sums");
 
   public:
@@ -71,6 +73,12 @@ class SplittingStepper {
     /// evaluated the probe says nothing.
     status_t<Scalar> begin(const M& model, Real t, const State& s) noexcept
     {
+        if constexpr (base == detail::sized_later) {
+            base_ = detail::Size<base>(static_cast<std::size_t>(model.base_lanes()));
+            rest_ = detail::Size<rest>(static_cast<std::size_t>(s.size() - model.base_lanes()));
+            if (base_ == 0 || rest_ == 0) return Status::not_separable;
+            second_order_ = model.order_of_system() != SecondOrder::no;
+        }
         lost_ = State::Zero(s.size());
         next_lost_ = moved_ = rates_ = first_ = last_ = lost_;
         const auto status = model.rhs(Scalar(t), s, first_);
@@ -114,19 +122,28 @@ class SplittingStepper {
     /// A step ends with rates that the next one begins with: those of its last kick, or of its last drift.
     static constexpr bool joins = count % 2 == 1;
 
-    /// The lanes that a kick moves, or a drift.
+    /// The lanes that a kick moves, or a drift: so many from `begin` on.
     template <bool kick>
     struct Lanes {
-        static constexpr Eigen::Index begin = kick ? M::base_dimension : 0;
-        static constexpr Eigen::Index size = kick ? M::dimension - M::base_dimension : M::base_dimension;
-
-        template <class Function>
-        [[gnu::always_inline]] static void each(const Function& f) noexcept
-        {
-            detail::for_first_lanes<State, size>(
-                size, [&]<int width>(detail::Width<width> w, Eigen::Index lane) { f(w, begin + lane); });
-        }
     };
+    template <bool kick>
+    [[nodiscard]] Eigen::Index begin_of(Lanes<kick>) const noexcept
+    {
+        return kick ? static_cast<Eigen::Index>(base_) : 0;
+    }
+    template <bool kick>
+    [[nodiscard]] Eigen::Index size_of(Lanes<kick>) const noexcept
+    {
+        return static_cast<Eigen::Index>(kick ? std::size_t(rest_) : std::size_t(base_));
+    }
+
+    [[nodiscard]] bool is_second_order() const noexcept
+    {
+        if constexpr (base == detail::sized_later)
+            return second_order_;
+        else
+            return second_order<M> != SecondOrder::no;
+    }
 
     /// s1 = s - lost_ + moved_ by all drifts and kicks; `last` has the rates of the last one.
     status_t<Scalar> move(const M& model, Real t, const State& s, Real h, State& s1, State& last) noexcept
@@ -137,8 +154,8 @@ class SplittingStepper {
         moved_ = -lost_;
         const auto substep = [&]<bool kick>(std::size_t k, Lanes<kick> lanes) {
             const Real length = Splitting::weights[k].template as<Real>() * h;
-            if constexpr (!kick && second_order<M> != SecondOrder::no) {
-                go(s, length, lanes, M::base_dimension, s1, s1);
+            if (!kick && is_second_order()) {
+                go(s, length, lanes, static_cast<Eigen::Index>(base_), s1, s1);
             } else if (joins && k == 0) {
                 go(s, length, lanes, 0, first_, s1);
             } else {
@@ -161,11 +178,13 @@ class SplittingStepper {
 
     /// Moves these lanes by length * rates, whose lanes stand `shift` behind them.
     template <bool kick>
-    [[gnu::always_inline]] void go(const State& s, const Real& length, Lanes<kick>, Eigen::Index shift,
+    [[gnu::always_inline]] void go(const State& s, const Real& length, Lanes<kick> lanes, Eigen::Index shift,
                                    const State& rates, State& s1) noexcept
     {
-        Lanes<kick>::each([&]<int width>(detail::Width<width>, Eigen::Index lane) {
+        constexpr auto size = static_cast<Eigen::Index>(kick ? rest : base); // sized_later is Eigen::Dynamic
+        detail::for_first_lanes<State, size>(size_of(lanes), [&]<int width>(detail::Width<width>, Eigen::Index place) {
             using detail::load;
+            const Eigen::Index lane = begin_of(lanes) + place;
             const detail::Slice<State, width> sum =
                 load<width>(moved_, lane) + length * detail::load_fresh<width>(rates, lane + shift);
             detail::store(moved_, lane, sum);
@@ -175,10 +194,10 @@ class SplittingStepper {
 
     /// What the rates have more than at s where these lanes are displaced `times` times; false where there are none.
     template <bool kick>
-    bool probe(const M& model, Real t, const State& s, Lanes<kick>, int times, State& change) noexcept
+    bool probe(const M& model, Real t, const State& s, Lanes<kick> lanes, int times, State& change) noexcept
     {
         State moved = s;
-        const Eigen::Index begin = Lanes<kick>::begin, end = begin + Lanes<kick>::size;
+        const Eigen::Index begin = begin_of(lanes), end = begin + size_of(lanes);
         for (Eigen::Index lane = begin; lane < end; ++lane)
             moved[lane] += Scalar(Real(times) / Real(64)) * (Scalar(1) + s[lane] * s[lane]);
         ++calls_;
@@ -188,9 +207,9 @@ class SplittingStepper {
     }
 
     template <bool kick>
-    void refuse(status_t<Scalar>& verdict, const State& change, Lanes<kick>) const noexcept
+    void refuse(status_t<Scalar>& verdict, const State& change, Lanes<kick> lanes) const noexcept
     {
-        const Eigen::Index begin = Lanes<kick>::begin, end = begin + Lanes<kick>::size;
+        const Eigen::Index begin = begin_of(lanes), end = begin + size_of(lanes);
         for (Eigen::Index lane = begin; lane < end; ++lane) {
             const Scalar size = Scalar(1) + first_[lane] * first_[lane];
             StatusOf<Scalar>::fail(verdict, change[lane] * change[lane] > Scalar(Real(1e-12)) * size,
@@ -202,6 +221,9 @@ class SplittingStepper {
     State moved_;            ///< since the beginning of the step
     State rates_, first_, last_;
     std::size_t calls_ = 0;
+    [[no_unique_address]] detail::Size<base> base_{};
+    [[no_unique_address]] detail::Size<rest> rest_{};
+    bool second_order_ = false; ///< of a model whose lanes are known at run time
     bool compensated_;
 };
 

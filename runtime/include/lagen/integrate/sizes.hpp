@@ -20,6 +20,15 @@ inline constexpr std::size_t sized_later = static_cast<std::size_t>(-1);
 template <class M>
 inline constexpr std::size_t size_of_state = M::dimension < 0 ? sized_later : static_cast<std::size_t>(M::dimension);
 
+/// The number of its base lanes; the whole of its lanes where it has no others.
+template <class M>
+inline constexpr std::size_t base_size = [] {
+    if constexpr (M::dimension < 0)
+        return sized_later;
+    else
+        return static_cast<std::size_t>(M::base_dimension);
+}();
+
 template <std::size_t size>
 struct Size {
     constexpr Size() = default;
