@@ -81,3 +81,30 @@ TEST_CASE("functions that begin at 0 are followed in the process as they are in 
         CHECK(invariants[name]["max_drift"].number() < 1e-9L);
     }
 }
+
+TEST_CASE("a model without lanes runs by every kind of method", "[run]")
+{
+    const std::string path = fresh_folder() + "/none.toml";
+    write_text(path, R"toml([base]
+coordinates = []
+[fibre]
+coordinates = []
+[algebroid]
+kind = "tangent"
+[lagrangian]
+L = "1"
+[scene.default]
+duration = 1
+samples = 3
+)toml");
+    for (const std::vector<std::string>& method :
+         {std::vector<std::string>{"dop853"}, {"rk4", "--step", "0.25"}, {"gauss4", "--step", "0.25"}, {"radau5"}, {"taylor"}}) {
+        INFO(method[0]);
+        std::vector<std::string> arguments{"run", path, "--method"};
+        arguments.insert(arguments.end(), method.begin(), method.end());
+        const Outcome run = call(arguments);
+        INFO(run.err);
+        CHECK(run.code == 0);
+        CHECK(run.out == "t\r\n0\r\n0.5\r\n1\r\n");
+    }
+}

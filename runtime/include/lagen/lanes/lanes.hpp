@@ -326,8 +326,11 @@ template <class Column>
 [[gnu::always_inline]] inline auto sum_of_lanes(const Column& s) noexcept
 {
     constexpr Eigen::Index size = Column::SizeAtCompileTime;
-    typename Column::Scalar sum = s[0];
-    if constexpr (has_pairs<Column> && !is_pack<typename Column::Scalar> && size >= 2) {
+    using Scalar = typename Column::Scalar;
+    if constexpr (size <= 0)
+        if (s.size() == 0) return Scalar(0);
+    Scalar sum = s[0];
+    if constexpr (has_pairs<Column> && !is_pack<Scalar> && size >= 2) {
         Slice<Column, 2> pairs = load_fresh<2>(s, 0);
         for_slices<2, size>(size, [&]<int width>(Width<width>, Eigen::Index lane) {
             if constexpr (width == 2)
