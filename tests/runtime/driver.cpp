@@ -153,7 +153,7 @@ TEST_CASE("A run tells events, energy, invariants and constraints, and picks col
     CHECK(run.report.invariants[1].name == "zero");
     CHECK(run.report.invariants[1].most == run.report.t);
     REQUIRE(run.report.constraints.size() == 1);
-    CHECK(run.report.constraints[0].most == Approx(0.5).epsilon(1e-15));
+    CHECK(run.report.constraints[0].most == Approx(0.5).epsilon(1e-10));
 }
 
 TEST_CASE("A run that cannot go on keeps its rows")
