@@ -93,8 +93,9 @@ TEST_CASE("a second run compiles nothing, whatever changes in comments and numbe
     for (const char* setting : {"g=9.81", "g=1", "m=2"})
         CHECK(call(by_splitting({"run", "pendulum.toml", "--set", setting}), counted).code == 0);
     CHECK(read_text(witness) == "called\ncalled\n");
-    CHECK(call({"run", "oscillator.toml", "--method", "kahanli8", "--step", "0.01", "--time-scale", "1"}, counted).code ==
-          0);
+    CHECK(
+        call({"run", "oscillator.toml", "--method", "kahanli8", "--step", "0.01", "--time-scale", "1"}, counted).code ==
+        0);
     CHECK(read_text(witness) == "called\ncalled\ncalled\n");
     const std::string other = fresh_folder() + "/called";
     CHECK(call(short_run, {.environment = {{"CXX", quick_compiler(other)}}}).code == 0);

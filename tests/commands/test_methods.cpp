@@ -97,8 +97,11 @@ L = "1"
 duration = 1
 samples = 3
 )toml");
-    for (const std::vector<std::string>& method :
-         {std::vector<std::string>{"dop853"}, {"rk4", "--step", "0.25"}, {"gauss4", "--step", "0.25"}, {"radau5"}, {"taylor"}}) {
+    for (const std::vector<std::string>& method : {std::vector<std::string>{"dop853"},
+                                                   {"rk4", "--step", "0.25"},
+                                                   {"gauss4", "--step", "0.25"},
+                                                   {"radau5"},
+                                                   {"taylor"}}) {
         INFO(method[0]);
         std::vector<std::string> arguments{"run", path, "--method"};
         arguments.insert(arguments.end(), method.begin(), method.end());

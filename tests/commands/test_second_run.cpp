@@ -190,10 +190,10 @@ steps = 8
 TEST_CASE("an interrupt in the second run leaves the rows, and the run is done")
 {
     const std::string folder = fresh_folder();
-    const Started started = start_call(
-        {"run", models_folder() + "/oscillator.toml", "-o", "rows.csv", "--method", "leapfrog_kdk", "--step", "0.125",
-         "--time-scale", "1"},
-        {.environment = {{"CXX", waiting_compiler()}, {"LAGEN_CACHE", fresh_folder()}}, .folder = folder});
+    const Started started =
+        start_call({"run", models_folder() + "/oscillator.toml", "-o", "rows.csv", "--method", "leapfrog_kdk", "--step",
+                    "0.125", "--time-scale", "1"},
+                   {.environment = {{"CXX", waiting_compiler()}, {"LAGEN_CACHE", fresh_folder()}}, .folder = folder});
     for (int k = 0; k < 500 && !sleeps("27.1828"); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(20));
     REQUIRE(sleeps("27.1828"));
     REQUIRE(::kill(started.process, SIGINT) == 0);

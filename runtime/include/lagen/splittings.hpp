@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// Partitioned (splitting) methods with a fixed step, `lagen::KahanLi8{.step = 0.1}`, for separable systems
 ///   xdot = f(y, t),   ydot = g(x, t),
-/// where x are the base lanes, which are the first ones, and y the others: compositions of drifts x += a h f(y) and kicks
-/// y += b h g(x) in turn. Symplectic where x and y are canonical coordinates. Drifts have their own clock, which the
-/// kicks move, and kicks one that the drifts move: both are exact flows then, and the order is full where f and g
+/// where x are the base lanes, which are the first ones, and y the others: compositions of drifts x += a h f(y) and
+/// kicks y += b h g(x) in turn. Symplectic where x and y are canonical coordinates. Drifts have their own clock, which
+/// the kicks move, and kicks one that the drifts move: both are exact flows then, and the order is full where f and g
 /// depend on time.
 ///
 /// A splitting is a type with the members `order`; `weights` of drifts and kicks in turn; `kick_first`; `affine`: its

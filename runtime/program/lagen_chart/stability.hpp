@@ -141,8 +141,7 @@ MethodFates fates_of(const StabilityRequest& request, const std::vector<Stabilit
 {
     MethodFates fates{std::string(name), {}, {}};
     for (const StabilityColumn<M>& column : columns)
-        for (const double step : request.steps)
-            fates.cells.push_back(fate_of<M, Method>(request, column, step));
+        for (const double step : request.steps) fates.cells.push_back(fate_of<M, Method>(request, column, step));
     return fates;
 }
 
