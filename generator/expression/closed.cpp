@@ -52,7 +52,8 @@ void Budget::spend(std::size_t operations, const SourceRange& where)
 ClosedTree Maker::operation(const Tree& tree, std::vector<ClosedTree> arguments) const
 {
     if (tree->kind == TreeKind::call)
-        if (const auto value = value_at_turn(tree->function, arguments[0].tree)) return number(*value);
+        if (!arguments.empty())
+            if (const auto value = value_at_turn(tree->function, arguments[0].tree)) return number(*value);
     std::vector<Measure> measures;
     measures.reserve(arguments.size());
     bool changed = false;

@@ -13,6 +13,8 @@ namespace lagen {
 /// A compiled model of n lanes, n even, with states in place: steppers of few lanes are written out for it.
 template <int n>
 class InPlace {
+    static_assert(n % 2 == 0, "states in place begin where a column on the heap does");
+
   public:
     using Scalar = double;
     using State = Eigen::Matrix<double, n, 1>;

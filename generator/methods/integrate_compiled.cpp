@@ -37,7 +37,7 @@ std::string integrate_compiled(const std::string& path, const std::string& type,
         detail::RunPlan<CompiledModel> plan;
         plan.model = std::move(loaded.model);
         if constexpr (requires { method.lanes; }) method.lanes = plan.model.lanes();
-        if (!detail::make_plan(job, plan, method)) return "it is not that of this scene";
+        if (!detail::make_plan(job, plan, method)) return job_is_of_another_model;
         report = detail::run_plan(plan, method, job, rows, signal);
         return {};
     };

@@ -23,6 +23,9 @@ struct KernelsAsked {
 /// their model.
 [[nodiscard]] std::optional<KernelsAsked> integrates_compiled(const std::string& type);
 
+/// What a run answers that was given a job which does not fit its model: no fault of the file.
+inline constexpr const char* job_is_of_another_model = "the job is that of another model";
+
 /// The run that the job asks for, over the compiled model of this path, with a method that integrates_compiled finds.
 /// The rows go to `rows`, one after another; a signal that is not zero ends the run. Answers why the model could
 /// not be loaded, or nothing. (Names of the runtime stay out of here: some are those of other things in the rooms

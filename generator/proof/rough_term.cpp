@@ -4,16 +4,18 @@
 #include "proof/sloped_functions.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lagen::proof {
 
 namespace {
 
 constexpr slong term_bits = 256;
-/// Boxes of 2^-40 and 2^-80: slopes that vanish as |x|^(1/5) are seen to. Around a point that is known exactly the
-/// second one may be as small as one likes.
-constexpr slong wide_box = 40, narrow_box = 80, least_box = 1 << 20;
-constexpr double much_smaller = 0x1p-8, negligible_radius = 0x1p-150;
+/// Boxes of 2^-40, 2^-60 and 2^-80, in each of which slopes that vanish as |x|^(1/5) are a sixteenth of those before:
+/// what jumps stays as large. Around a point that is known exactly one box as small as one likes has no jump in it that
+/// is more than rounding.
+constexpr slong boxes[] = {40, 60, 80}, least_box = 1 << 20;
+constexpr double much_smaller = 0x1p-4, negligible_radius = 0x1p-150, rounding = 0x1p-180;
 
 using Nodes = std::vector<NodeId>;
 
@@ -24,6 +26,14 @@ std::vector<Ball> in_box(const SlopedFunctions& functions, const std::vector<Bal
     NewtonEquations found = functions.at(box, term_bits);
     std::ranges::move(found.value.entries, std::back_inserter(found.slope.entries));
     return found.slope.entries;
+}
+
+/// Whether it has no more of a radius than rounding gives it, or a part of the one before.
+bool is_narrow(const Ball& ball, double before)
+{
+    const double size = std::fabs(arf_get_d(arb_midref(ball.get()), ARF_RND_NEAR)), radius = radius_of(ball);
+    return std::isfinite(size) && std::isfinite(radius) && std::isfinite(before) &&
+           radius <= much_smaller * before + negligible_radius + rounding * size;
 }
 
 /// What a sum, a multiple or a component of a solution is made of; nothing of anything else.
@@ -55,11 +65,16 @@ std::optional<NodeId> rough_term(Graph& graph, const Nodes& functions, const Nod
 {
     const auto smooth = [&](const Nodes& some) {
         const SlopedFunctions sloped(graph, some, z);
-        const std::vector<Ball> first = in_box(sloped, at, wide_box);
-        const std::vector<Ball> then = in_box(sloped, at, exactly ? least_box : narrow_box);
-        for (std::size_t k = 0; k < first.size(); ++k)
-            if (!first[k].is_finite() || radius_of(then[k]) > much_smaller * radius_of(first[k]) + negligible_radius)
-                return false;
+        const auto narrow = [](const Ball& ball) { return is_narrow(ball, 0); };
+        if (exactly) return std::ranges::all_of(in_box(sloped, at, least_box), narrow);
+        std::vector<double> before;
+        for (const slong exponent : boxes) {
+            const std::vector<Ball> found = in_box(sloped, at, exponent);
+            for (std::size_t k = 0; k < before.size(); ++k)
+                if (!is_narrow(found[k], before[k])) return false;
+            before.clear();
+            for (const Ball& ball : found) before.push_back(radius_of(ball));
+        }
         return true;
     };
     if (smooth(functions)) return std::nullopt;

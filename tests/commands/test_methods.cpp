@@ -111,3 +111,15 @@ samples = 3
         CHECK(run.out == "t\r\n0\r\n0.5\r\n1\r\n");
     }
 }
+
+TEST_CASE("a run with constraints that fails at its start says so", "[run]")
+{
+    for (const char* method : {"dop853", "radau5", "taylor"}) {
+        INFO(method);
+        const Outcome run =
+            call({"run", "heavy_top.toml", "--method", method, "--tolerance", "1e-18", "--format", "json"});
+        INFO(run.err);
+        CHECK((run.code == 0 || run.code == 1));
+        CHECK_THAT(run.out, Catch::StartsWith("{\"model\": \"heavy_top\""));
+    }
+}

@@ -176,6 +176,7 @@ TEST_CASE("a term with a kink or a jump, or one that ends at an equilibrium, is 
         {"-x - x*abs(v)^0.5", "x*sqrt(abs(v))"},
         {"-x - (v^2 + x^2)^(1/3)", "(v^2 + x^2)^(1/3)"},
         {"-x - cos(x)*abs(v)", "cos(x)*abs(v)"},
+        {"-x - 10000000000*v*abs(v) - abs(v)/1000000", "abs(v)"}, // beside one that bends much more
     };
     for (const auto& [force, term] : cases) {
         INFO(force);

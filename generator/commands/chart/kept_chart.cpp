@@ -8,7 +8,7 @@ namespace lagen {
 
 namespace {
 
-constexpr std::string_view chart_heading = "what `lagen chart` measured\n";
+constexpr std::string_view chart_heading = "what `lagen chart` of " LAGEN_VERSION " measured, packed\n";
 
 } // namespace
 

@@ -133,7 +133,8 @@ std::vector<chart::ColumnStart> column_starts(CheckedModel& checked, const Scene
 void take_answer(std::string_view answer, StabilityChart& chart)
 {
     chart::StabilityAnswer found;
-    if (!detail::take_packed(answer, found)) throw InternalError("a program of a chart gave another answer");
+    if (!detail::take_packed(answer, found) || !answer.empty())
+        throw InternalError("a program of a chart gave another answer");
     chart.columns = std::move(found.columns);
     for (chart::MethodFates& method : found.methods) chart.methods.push_back({std::move(method)});
 }

@@ -5,6 +5,7 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
 #include <unistd.h>
 
 namespace lagen {
@@ -23,7 +24,7 @@ Progress::Progress(double start, double end)
 
 void Progress::show(double time)
 {
-    if (!terminal_ || std::chrono::steady_clock::now() < next_) return;
+    if (!terminal_ || !std::isfinite(time) || std::chrono::steady_clock::now() < next_) return;
     next_ = std::chrono::steady_clock::now() + interval;
     write_standard_error(fmt::format("\r{:3.0f} %  t = {:.6g}   ", 100 * (time - start_) / (end_ - start_), time));
     shown_ = true;

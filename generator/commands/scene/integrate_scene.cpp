@@ -53,8 +53,10 @@ bool run_program(const std::string& program, const ProgramInput& input, const st
     require_started(result, program);
     const bool interrupted = result.interrupted || result.exit_code == static_cast<int>(ExitCode::interrupted);
     if (!interrupted && result.exit_code != 0) refuse_end(result);
-    if (!detail::read_packed(report.c_str(), static_cast<detail::RunReport&>(outcome)) && !interrupted)
-        throw InternalError("the program of a scene gave no report"); // one that was killed wrote none
+    if (detail::RunReport told; detail::read_packed(report.c_str(), told))
+        static_cast<detail::RunReport&>(outcome) = std::move(told);
+    else if (!interrupted) // one that was killed wrote none
+        throw InternalError("the program of a scene gave no report");
     return !interrupted;
 }
 
@@ -65,6 +67,7 @@ bool run_in_process(const std::string& path, const ProgramInput& input, const de
     const InterruptFlag interrupt;
     const std::string not_loaded =
         integrate_compiled(path, input.method_type, job_of(input), rows, interrupt.flag(), outcome);
+    if (not_loaded == job_is_of_another_model) throw InternalError(not_loaded);
     if (!not_loaded.empty())
         throw MachineError(fmt::format("error: the compiled model could not be loaded: {}\nhint: remove '{}' to have "
                                        "it compiled again",

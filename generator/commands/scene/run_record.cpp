@@ -33,7 +33,7 @@ std::string line_of(const System& system, const Regularity& known)
     return line;
 }
 
-constexpr std::string_view first_line = "what `lagen run` proved and compiled\n";
+constexpr std::string_view first_line = "what `lagen run` of " LAGEN_VERSION " proved and compiled, packed\n";
 
 /// The program that runs: its place, size and time.
 void add_lagen(ContentHash& hash)

@@ -290,7 +290,7 @@ class Radau5Stepper {
     Status iterate(const M& model, const Real& t, const State& s) noexcept
     {
         using std::sqrt;
-        const auto lanes = static_cast<Real>(stages * static_cast<std::size_t>(s.size()));
+        const auto lanes = static_cast<Real>(stages * static_cast<std::size_t>(s.size() > 0 ? s.size() : 1));
         left_ = detail::power_of_number(std::max<Real>(left_, epsilon()), Real(0.8));
         rate_ = Real(fast);
         Real before = Real(0), rate_before = Real(0);

@@ -61,16 +61,22 @@ class Unpacker {
         if constexpr (is_plain<T>) {
             good = good && rest.size() >= plain_size<T>;
             if (!good) return;
-            std::memcpy(&value, rest.data(), plain_size<T>);
+            if constexpr (std::is_same_v<T, bool>)
+                value = rest[0] != 0;
+            else
+                std::memcpy(&value, rest.data(), plain_size<T>);
             rest.remove_prefix(plain_size<T>);
         } else if constexpr (requires { value.has_value(); }) {
+            value.reset();
             if (bool has = false; get(has), has) get(value.emplace());
         } else if constexpr (requires { value.begin(); }) {
             std::size_t size = 0;
             get(size);
-            good = good && size <= rest.size(); // an entry has a byte at least
-            value.resize(good ? size : 0);
-            for (auto& each : value) get(each);
+            value.clear();
+            for (std::size_t k = 0; k < size && good; ++k) {
+                value.push_back({});
+                get(value.back());
+            }
         } else {
             T::each(value, *this);
         }

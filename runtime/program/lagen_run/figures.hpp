@@ -34,6 +34,7 @@ class Figures {
     {
         for (Values* values : {&initial_, &most_t_, &size_, &moved_at_}) values->assign(count_, nothing);
         for (Values* values : {&reference_, &most_, &allowed_, &seen_}) values->assign(count_, 0.0);
+        for (Values* values : {&nodes_, &weights_}) values->reserve(most_nodes);
         means_.begin(count_);
     }
 
@@ -92,7 +93,8 @@ class Figures {
         for (const char* name : invariants_of(model)) report.invariants.push_back(next(name));
         for (const char* name : constraints_of(model)) report.constraints.push_back(next(name));
         for (const char* name : casimirs_of(model)) report.casimirs.push_back(next(name));
-        if (constraints_ > 0) report.manifold = distance_from_manifold(model), report.manifold_t = off_t_;
+        if (constraints_ > 0 && begun_) // else there is no state
+            report.manifold = distance_from_manifold(model), report.manifold_t = off_t_;
     }
 
   private:
@@ -102,6 +104,8 @@ class Figures {
 
     /// The place of the energy less the work, behind the energy.
     static constexpr std::size_t balance = 1;
+    static constexpr std::size_t most_nodes =
+        64; ///< of Gauss' formula: half the highest order of dense output, and more
     using Values = std::vector<double>;
 
     static void visit_column(const auto& column, const auto& take)

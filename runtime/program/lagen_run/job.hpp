@@ -98,7 +98,7 @@ inline constexpr double most_rows = 1e8;
     }
     if (rows.kind != RowsAsked::Kind::interval) return true;
     const double pieces = std::abs(length) / rows.interval, towards = length < 0 ? -1.0 : 1.0;
-    if (!(pieces <= most_rows)) return false;
+    if (!(rows.interval > 0 && pieces <= most_rows)) return false;
     for (double k = 0; k <= pieces + 1e-9; ++k) times.push_back(start + towards * k * rows.interval);
     if (std::abs(times.back() - end) <= 1e-9 * rows.interval)
         times.back() = end;

@@ -255,7 +255,7 @@ try {
     bool good = std::fread(&size, sizeof size, 1, stdin) == 1 && size < 100'000'000;
     std::string bytes(good ? size : 0, ' ');
     std::string_view rest = bytes;
-    good = good && std::fread(bytes.data(), 1, size, stdin) == size && detail::take_packed(rest, job);
+    good = good && std::fread(bytes.data(), 1, size, stdin) == size && detail::take_packed(rest, job) && rest.empty();
     if (detail::RunPlan<M> plan;
         !good || !detail::plan_columns(job.run, plan.model) || !detail::plan_events(job.run, plan))
         return detail::complain("a job for this model is required", 4);

@@ -94,7 +94,8 @@ class JacobianPattern<M> {
         if (!model.has_jacobian()) return Status::invalid_input;
         rows_ = model.jacobian_rows();
         columns_ = model.jacobian_columns();
-        band_ = band_order(Size<sized_later>(static_cast<std::size_t>(model.lanes())), rows_, columns_);
+        if constexpr (n == sized_later)
+            band_ = band_order(Size<sized_later>(static_cast<std::size_t>(model.lanes())), rows_, columns_);
         make_numbers(values, rows_.size(), typename M::Scalar(0));
         return Status::ok;
     }
