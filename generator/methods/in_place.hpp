@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// A compiled model of few lanes as one whose number of lanes the compiler knows: implicit methods take half as many
-/// instructions a step of two lanes, and four fifths of six.
+/// A compiled model of few lanes as one whose number of lanes the compiler knows. Gauss' method of order 4 takes three
+/// fifths of the instructions a step of two lanes, and four fifths of six; rk4 of six lanes takes three quarters.
 #pragma once
 
 #include "lagen/compiled_model.hpp"
@@ -51,7 +51,7 @@ class InPlace {
     const CompiledModel& model_;
 };
 
-/// Of any number of lanes: the model itself.
+/// A model of any number of lanes is used as it is.
 template <>
 class InPlace<Eigen::Dynamic> {
   public:

@@ -13,7 +13,7 @@
 
 namespace lagen {
 
-/// What a method asks of a compiled model besides its right-hand side.
+/// Kernels that a method calls of a compiled model besides its right-hand side.
 struct KernelsAsked {
     bool jacobian = false, packs = false;
 };
@@ -23,7 +23,7 @@ struct KernelsAsked {
 /// their model.
 [[nodiscard]] std::optional<KernelsAsked> integrates_compiled(const std::string& type);
 
-/// What a run answers that was given a job which does not fit its model: no fault of the file.
+/// integrate_compiled answers this where the job does not fit the model, which is no fault of the file.
 inline constexpr const char* job_is_of_another_model = "the job is that of another model";
 
 /// The run that the job asks for, over the compiled model of this path, with a method that integrates_compiled finds.

@@ -163,10 +163,9 @@ bool confirm_accuracy(const AccurateMethod& accurate, const RunRecord& record, P
 double table_distance(const Table& a, const Table& b)
 {
     if (a.count() == 0 || a.count() != b.count()) return HUGE_VAL;
-    const std::vector<double> nothing(b.columns.size(), 0.0);
     double most = 0;
     for (std::size_t k = 0; k < a.count(); ++k) {
-        const double distance = row_distance(a.row(k), b.row(k)), size = row_distance(b.row(k), nothing);
+        const double distance = row_distance(a.row(k), b.row(k)), size = row_size(b.row(k));
         most = std::max(most, size > 0 ? distance / size : distance);
     }
     return most;

@@ -4,6 +4,7 @@
 #include "commands/machine/process.hpp"
 #include "commands/machine/temporary_folder.hpp"
 #include "commands/machine/write_file.hpp"
+#include "commands/scene/scene_program.hpp"
 #include "commands/scene/start_state.hpp"
 #include "scene/sample_times.hpp"
 
@@ -28,11 +29,6 @@ Scene bare_scene(const Scene& scene)
     return bare;
 }
 
-std::vector<double> doubles(const std::vector<long double>& values)
-{
-    return {values.begin(), values.end()};
-}
-
 } // namespace
 
 ChartProblem chart_problem(CheckedModel& checked, const Scene& whole, const std::string& form)
@@ -44,15 +40,15 @@ ChartProblem chart_problem(CheckedModel& checked, const Scene& whole, const std:
         (void)finite_numbers(*group, scene);
     set_parameters(checked, parameters);
     ChartProblem problem;
-    problem.parameters = doubles(parameters);
-    problem.initial = doubles(StartState([&](bool) -> const CheckedModel& { return checked; }, form)(values));
+    problem.parameters = doubles_of(parameters);
+    problem.initial = doubles_of(StartState([&](bool) -> const CheckedModel& { return checked; }, form)(values));
     const SampleTimes times = sample_times(scene, values, problem.initial.size() + 1, true);
     problem.start = static_cast<double>(times.start);
     problem.end = static_cast<double>(times.end);
     if (problem.start == problem.end)
         throw ModelError(fmt::format("scene '{}' has no length: there is nothing to chart", scene.name), scene.where);
     if (times.kind == Sampling::Kind::at)
-        problem.times = doubles(times.at);
+        problem.times = doubles_of(times.at);
     else
         sample_evenly(problem, even_samples);
     problem.events = scene.events;

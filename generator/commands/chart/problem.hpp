@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// What all programs of a chart share: one model from one start, sampled at the same times.
+/// All programs of a chart share a problem: one model from one start, sampled at the same times.
 #pragma once
 
 #include "lagen_chart/request.hpp"
@@ -26,7 +26,7 @@ struct ChartProblem {
 /// `count` even times from the start to the end of the problem.
 void sample_evenly(ChartProblem& problem, std::size_t count);
 
-/// What every program is asked for.
+/// The request that every program of the chart is given, but for its ladders.
 [[nodiscard]] chart::Request request_of(const ChartProblem& problem);
 
 /// A program of a chart, and what it is asked.

@@ -39,7 +39,7 @@ Scene stepped_scene(const Scene& scene, const std::vector<StabilityAxis>& axes, 
     return stepped;
 }
 
-/// What a run of the equations keeps, into the request; its name.
+/// Sets the quantity of the request that a run of the equations keeps, and returns its name.
 std::string follow(const KernelModule& module, chart::StabilityRequest& request)
 {
     if (!has_kernel(module, "power"))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/chart/stability_discrete.hpp"
 
+#include "commands/scene/scene_program.hpp"
 #include "commands/scene/start_state.hpp"
 #include "elaborate/variational_model.hpp"
 #include "emit/print_header.hpp"
@@ -18,7 +19,7 @@ namespace lagen {
 
 namespace {
 
-/// What is followed, into the request; its name.
+/// Sets the quantity of the request that is followed, and returns its name.
 std::string follow_in_steps(const CheckedModel& checked, const KernelModule& module,
                             const std::optional<std::string>& wanted, chart::StabilityRequest& request)
 {
@@ -49,11 +50,6 @@ std::size_t step_number(const Model& model)
     const std::vector<Symbol> symbols = free_parameters(model);
     const auto place = std::ranges::find(symbols, model.discrete->step.name, &Symbol::name);
     return static_cast<std::size_t>(place - symbols.begin());
-}
-
-std::vector<double> as_doubles(const std::vector<long double>& values)
-{
-    return {values.begin(), values.end()};
 }
 
 /// A start for every step of every column.
@@ -90,9 +86,9 @@ class CellStarts {
         const SceneValues values = evaluate_(parameters, initial);
         for (const std::vector<NamedNumber>* group : {&values.base, &values.fibre, &values.momenta})
             (void)finite_numbers(*group, scene_);
-        std::vector<double> numbers = as_doubles(finite_numbers(values.parameters, scene_));
+        std::vector<double> numbers = doubles_of(finite_numbers(values.parameters, scene_));
         if (own) numbers.push_back(step);
-        return {std::move(numbers), as_doubles(start_(values))};
+        return {std::move(numbers), doubles_of(start_(values))};
     }
 
     const Model& model_;

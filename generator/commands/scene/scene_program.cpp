@@ -14,13 +14,6 @@ namespace lagen {
 
 namespace {
 
-std::vector<double> doubles_of(const std::vector<long double>& values)
-{
-    std::vector<double> rounded;
-    for (const long double value : values) rounded.push_back(static_cast<double>(value));
-    return rounded;
-}
-
 detail::RowsAsked rows_asked(const ProgramInput& input)
 {
     using Kind = detail::RowsAsked::Kind;
@@ -116,6 +109,11 @@ void use_values(ProgramInput& input, const Scene& scene, const SceneValues& valu
     if (!values.discrete) input.step = values.step;
     input.relative = values.relative.value_or(standard_tolerance);
     input.absolute = values.absolute.value_or(standard_tolerance);
+}
+
+std::vector<double> doubles_of(const std::vector<long double>& values)
+{
+    return {values.begin(), values.end()};
 }
 
 std::vector<detail::EventAsked> events_asked(const std::vector<Event>& events)

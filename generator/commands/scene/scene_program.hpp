@@ -68,7 +68,10 @@ struct ProgramInput {
 /// sample_times (`stretch`) do.
 void use_values(ProgramInput& input, const Scene& scene, const SceneValues& values, StartState& start, bool stretch);
 
-/// Each number is the double next to it.
+/// The doubles next to these numbers.
+[[nodiscard]] std::vector<double> doubles_of(const std::vector<long double>& values);
+
+/// What a run is asked for, in doubles.
 [[nodiscard]] detail::RunJob job_of(const ProgramInput& input);
 [[nodiscard]] std::vector<detail::EventAsked> events_asked(const std::vector<Event>& events);
 

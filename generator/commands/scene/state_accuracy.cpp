@@ -34,13 +34,12 @@ std::optional<StateAccuracy> accuracy_of(const Table& run, const Table& second, 
 {
     const std::size_t columns = run.columns.size();
     if (columns < 2 || second.columns.size() != columns) return std::nullopt;
-    const std::vector<double> nothing(columns, 0.0);
     std::vector<double> distances;
     double size = 0;
     for (std::size_t k = 0; k < std::min(run.count(), second.count()); ++k) {
         if (!by_number && !is_same_time(run.row(k)[0], second.row(k)[0])) break;
         distances.push_back(row_distance(run.row(k), second.row(k)));
-        size = std::max(size, row_distance(second.row(k), nothing));
+        size = std::max(size, row_size(second.row(k)));
     }
     if (distances.empty()) return std::nullopt;
     const double most = *std::ranges::max_element(distances);

@@ -21,6 +21,11 @@ double row_distance(std::span<const double> a, std::span<const double> b)
     return most;
 }
 
+double row_size(std::span<const double> a)
+{
+    return row_distance(a, std::vector<double>(a.size(), 0.0));
+}
+
 std::string to_csv(const Table& table, const std::vector<std::string>& known)
 {
     std::string text;

@@ -13,7 +13,7 @@ struct Table {
     std::vector<std::string> columns; ///< "t", then states and observables
     std::vector<double> numbers;      ///< row after row
 
-    /// Of whole rows.
+    /// The number of whole rows.
     [[nodiscard]] std::size_t count() const { return columns.empty() ? 0 : numbers.size() / columns.size(); }
     [[nodiscard]] std::span<const double> row(std::size_t k) const
     {
@@ -25,6 +25,8 @@ struct Table {
 
 /// |a - b|_2 over the columns behind t that are numbers in both.
 [[nodiscard]] double row_distance(std::span<const double> a, std::span<const double> b);
+/// |a|_2 over the columns behind t that are numbers.
+[[nodiscard]] double row_size(std::span<const double> a);
 
 /// RFC 4180: a heading, plain_names(columns, known), then the rows, CRLF line ends; numbers are the shortest decimals
 /// that read back as they are, what is no finite number is an empty field. `known`: the names of the model.

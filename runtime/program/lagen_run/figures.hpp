@@ -104,8 +104,8 @@ class Figures {
 
     /// The place of the energy less the work, behind the energy.
     static constexpr std::size_t balance = 1;
-    static constexpr std::size_t most_nodes =
-        64; ///< of Gauss' formula: half the highest order of dense output, and more
+    /// More than half the highest order of dense output, of Gauss' formula.
+    static constexpr std::size_t most_nodes = 64;
     using Values = std::vector<double>;
 
     static void visit_column(const auto& column, const auto& take)
