@@ -3,6 +3,7 @@
 #include "commands/chart/accuracy.hpp"
 #include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
+#include "commands/line/values.hpp"
 #include "commands/machine/places.hpp"
 #include "commands/machine/temporary_folder.hpp"
 #include "commands/machine/write_file.hpp"
@@ -10,7 +11,6 @@
 #include "commands/run_morphism.hpp"
 #include "commands/scene/integrate_scene.hpp"
 #include "commands/scene/partial_rows.hpp"
-#include "commands/scene/range.hpp"
 #include "commands/scene/scene_options.hpp"
 #include "commands/scene/scene_run.hpp"
 #include "commands/scene/second_run.hpp"
@@ -182,14 +182,14 @@ ExitCode run_run(Arguments arguments)
     const bool stretch = options.has("at") && !options.has("t-end");
     const VariationRequest variations = variations_of(options);
     if (variations.any()) require_no_jumps(options, scene, "variations are taken");
-    std::vector<std::string> beside;
     if (variations.any())
-        beside = {add_variation_states(checked.model, elaborate(model), scene, variations,
-                                       sample_times(scene, evaluate_scene(model, scene), 1, stretch))};
-    SceneRun run(options, checked, accurate ? accurate->method->name : options.get("method"), beside);
+        add_variation_states(checked.model, elaborate(model), scene, variations,
+                             sample_times(scene, evaluate_scene(model, scene), 1, stretch));
     const MethodEntry& method = accurate ? *accurate->method : method_of(options, scene);
-    if (options.has("branch")) run.input().branch = branch_of(options, scene, evaluate_scene(model, scene));
-    run.prepare(std::move(scene), method, stretch);
+    std::optional<std::uint64_t> branch;
+    if (options.has("branch")) branch = branch_of(options, scene, evaluate_scene(model, scene));
+    SceneRun run(options, checked, std::move(scene), method, stretch);
+    run.input().branch = branch;
 
     bool whole = !accurate || confirm_accuracy(*accurate, run.record(), run.input());
 

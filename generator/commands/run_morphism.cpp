@@ -192,8 +192,7 @@ ExitCode run_morphism(const Options& options, const std::shared_ptr<const Source
     const MethodEntry& method = method_of(options, scene);
     const std::size_t asked = observe_states(from.model, scene);
 
-    SceneRun source(options, from, method.name, {"source of a morphism"});
-    source.prepare(std::move(scene), method, options.has("at") && !options.has("t-end"));
+    SceneRun source(options, from, std::move(scene), method, options.has("at") && !options.has("t-end"));
     const InterruptsHeld held; // between programs, which they reach: rows are written first
     const WholeRun here = run_of(source, asked);
     if (is_interrupted(here.outcome))
@@ -206,11 +205,10 @@ ExitCode run_morphism(const Options& options, const std::shared_ptr<const Source
         to.model = lifted.model;
     }
     Projection projection(std::move(map), source.form(), source.values());
-    SceneRun target(options, to, method.name, {"target of a morphism", source.form(), lifted.rates});
     Scene image = image_scene(source, here.whole, to.model, projection);
     if (reconstruct) add_lifts(lifted, source, image, projection);
     const std::size_t states = observe_states(to.model, image);
-    target.prepare(std::move(image), method, false);
+    SceneRun target(options, to, std::move(image), method, false);
     const WholeRun there = run_of(target, states);
 
     const RunComparison comparison = compare(projection, here.whole, there.whole);

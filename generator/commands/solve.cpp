@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// `lagen solve`: relative equilibria with what is proved of their stability.
+#include "commands/exact_start.hpp"
 #include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
+#include "commands/line/values.hpp"
 #include "commands/machine/places.hpp"
 #include "commands/machine/write_file.hpp"
-#include "commands/scene/exact_start.hpp"
-#include "commands/scene/range.hpp"
 #include "commands/scene/scene_options.hpp"
 #include "commands/scene/start_state.hpp"
 #include "emit/json.hpp"

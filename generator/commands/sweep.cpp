@@ -181,14 +181,13 @@ ExitCode run_sweep(Arguments arguments)
     const SweepRows rows = sweep_rows(options, request, model, scene);
     require_constants(model, rows);
     scene = with_swept(model, std::move(scene), rows);
-    Preparation preparation(options, checked, sweep_driver, options.get("method"));
+    const MethodEntry& method = method_of(options, scene);
+    Preparation preparation(options, checked, scene, method, sweep_driver);
     for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
-    const std::string form = form_of(model, scene);
     const std::vector<long double> parameters = finite_numbers(SceneEvaluator(model, scene).parameters({}), scene);
     StartState start([&](bool decided) -> const CheckedModel& { return preparation.checked(parameters, decided); },
-                     form);
-    preparation.finish(scene, form, method_of(options, scene), parameters,
-                       [&](const RunRecord& found) { prepare_start(start, model, scene, found, rows); });
+                     scene.form);
+    preparation.finish(parameters, [&](const RunRecord& found) { prepare_start(start, model, scene, found, rows); });
     const RunRecord& record = preparation.record();
 
     const SweepSetting setting{model, scene, record, threads};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "linear/linear_system.hpp"
 
+#include <algorithm>
+
 namespace lagen::linear {
 
 namespace {
@@ -91,6 +93,17 @@ LinearSystem linear_system(Matrix A, Matrix B, const Matrix& slopes)
     system.normal = svd.matrixV().leftCols(svd.rank());
     system.leaf = svd.matrixV().rightCols(n - svd.rank());
     return system;
+}
+
+std::vector<Eigenvalue> eigenvalues(const Matrix& A)
+{
+    if (!A.allFinite()) return {};
+    const Eigen::VectorXcd values = A.eigenvalues();
+    std::vector<Eigenvalue> out(values.begin(), values.end());
+    std::ranges::sort(out, [](const Eigenvalue& a, const Eigenvalue& b) {
+        return a.real() != b.real() ? a.real() < b.real() : a.imag() < b.imag();
+    });
+    return out;
 }
 
 double LinearSystem::size() const

@@ -16,6 +16,9 @@ namespace lagen::linear {
 using Matrix = Eigen::MatrixXd;
 using Eigenvalue = std::complex<double>;
 
+/// Of a square matrix, by real, then by imaginary parts; none where an entry is no finite number.
+[[nodiscard]] std::vector<Eigenvalue> eigenvalues(const Matrix& A);
+
 struct LinearSystem {
     Matrix A, B;   ///< shapes (n, n), (n, m)
     Matrix leaf;   ///< T, shape (n, k): an orthonormal basis of the leaf

@@ -73,20 +73,9 @@ Matrix lyapunov(const Matrix& F, const Matrix& C)
     return (X + X.transpose()) / 2;
 }
 
-std::vector<Eigenvalue> sorted_eigenvalues(const Matrix& A)
+bool decays(const std::vector<Eigenvalue>& values)
 {
-    std::vector<Eigenvalue> out;
-    const Eigen::VectorXcd values = A.eigenvalues();
-    out.assign(values.begin(), values.end());
-    std::ranges::sort(out, [](const Eigenvalue& a, const Eigenvalue& b) {
-        return a.real() != b.real() ? a.real() < b.real() : a.imag() < b.imag();
-    });
-    return out;
-}
-
-bool decays(const std::vector<Eigenvalue>& eigenvalues)
-{
-    return std::ranges::all_of(eigenvalues, [](const Eigenvalue& each) { return each.real() < 0; });
+    return std::ranges::all_of(values, [](const Eigenvalue& each) { return each.real() < 0; });
 }
 
 } // namespace
@@ -105,12 +94,12 @@ std::variant<Regulator, NoRegulator> regulator(const LinearSystem& system, const
     const Matrix weighted = R.llt().solve(B.transpose()); // R^-1 B^T
     const Riccati equation{A, B * weighted, T.transpose() * Q * T};
     std::optional<Matrix> P = by_stable_subspace(equation);
-    if (!P || !decays(sorted_eigenvalues(A - equation.G * *P))) return NoRegulator{};
+    if (!P || !decays(eigenvalues(A - equation.G * *P))) return NoRegulator{};
     const Matrix K = weighted * *P;
     const Matrix refined = lyapunov(A - B * K, equation.Q + K.transpose() * R * K);
     if (equation.residual(refined) < equation.residual(*P)) P = refined;
     const Matrix gain = weighted * *P;
-    Regulator out{gain * T.transpose(), equation.residual(*P), sorted_eigenvalues(A - B * gain)};
+    Regulator out{gain * T.transpose(), equation.residual(*P), eigenvalues(A - B * gain)};
     const double rounding = 1e-14 * out.K.cwiseAbs().maxCoeff();
     out.K = out.K.unaryExpr([&](double entry) { return std::abs(entry) < rounding ? 0.0 : entry; });
     if (!decays(out.closed_loop)) return NoRegulator{};

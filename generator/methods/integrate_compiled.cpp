@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "methods/integrate_compiled.hpp"
 
+#include "diagnostic.hpp"
 #include "lagen_run/driver.hpp"
 #include "methods/method_list.hpp"
 
@@ -33,15 +34,15 @@ std::string integrate_compiled(const std::string& path, const std::string& type,
 {
     CompiledModel::Loaded loaded = CompiledModel::load(path);
     if (loaded.status != LoadStatus::ok) return to_text(loaded.status);
-    const auto run = [&](auto method) -> std::string {
+    const auto run = [&](auto method) {
         detail::RunPlan<CompiledModel> plan;
         plan.model = std::move(loaded.model);
         if constexpr (requires { method.lanes; }) method.lanes = plan.model.lanes();
-        if (!detail::make_plan(job, plan, method)) return job_is_of_another_model;
+        if (!detail::make_plan(job, plan, method)) throw InternalError("the job is that of another model");
         report = detail::run_plan(plan, method, job, rows, signal);
-        return {};
     };
-    return std::visit(run, find(type)->method);
+    std::visit(run, find(type)->method);
+    return {};
 }
 
 } // namespace lagen

@@ -61,7 +61,19 @@ std::optional<PowerBound> PowerBounds::bound_of(NodeId node, NodeId base, int de
     auto& known = known_[base];
     if (known.empty()) descend(known, base, {Ball(Rational(1), bits_), 1}, deepest_walk);
     if (const auto found = known.find(node); found != known.end()) return found->second;
-    if (depth == 0) return std::nullopt;
+    int& looked = unseen_[base][node];
+    if (depth <= looked) return std::nullopt;
+    const std::optional<PowerBound> found = by_parts(node, base, depth);
+    if (found)
+        known.emplace(node, *found);
+    else
+        looked = depth;
+    return found;
+}
+
+/// |node| by bounds of its operands.
+std::optional<PowerBound> PowerBounds::by_parts(NodeId node, NodeId base, int depth)
+{
     const std::vector<NodeId> of(graph_.operands(node).begin(), graph_.operands(node).end());
     const auto bound = [&](std::size_t k) { return bound_of(of[k], base, depth - 1); };
     const auto scaled = [&](std::optional<PowerBound> a, const Ball& factor) {

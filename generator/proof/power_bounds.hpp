@@ -36,6 +36,7 @@ class PowerBounds {
 
   private:
     [[nodiscard]] std::optional<PowerBound> bound_of(NodeId node, NodeId base, int depth);
+    [[nodiscard]] std::optional<PowerBound> by_parts(NodeId node, NodeId base, int depth);
     [[nodiscard]] std::optional<PowerBound> powered(std::optional<PowerBound> a, const Rational& q) const;
     void descend(std::map<NodeId, PowerBound>& known, NodeId node, const PowerBound& bound, int depth) const;
 
@@ -43,6 +44,7 @@ class PowerBounds {
     std::function<const Ball&(NodeId)> value_;
     slong bits_;
     std::map<NodeId, std::map<NodeId, PowerBound>> known_; ///< by base, then by part
+    std::map<NodeId, std::map<NodeId, int>> unseen_;       ///< of those without a bound how deep it was looked for
 };
 
 } // namespace lagen::proof

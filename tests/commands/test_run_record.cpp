@@ -123,7 +123,46 @@ TEST_CASE("what a record decided for some values is decided again for others", "
     const std::string decided = content_of(lagrange.records()[0]);
     CHECK(lagrange.run({"--set", "c=-0.04"}).code == 0);
     CHECK(content_of(lagrange.records()[0]) == decided);
-    // Other forms and methods have records of their own.
+    // Another form has a record of its own.
     CHECK(cache.run({"--method", "tsit5"}).code == 0);
     CHECK(cache.records().size() == 2);
+}
+
+TEST_CASE("methods, scenes and starts that ask for the same kernels share a record, of which one with more serves all",
+          "[run]")
+{
+    const Cache cache;
+    const std::string folder = fresh_folder();
+    const auto run = [&](const std::string& start, std::vector<std::string> options, bool own = false) {
+        std::ofstream(folder + "/m.toml") << "[model]\nname = \"m\"\n[base]\ncoordinates = [\"q\"]\n"
+                                             "[fibre]\ncoordinates = [\"v\"]\n[parameters]\nk = 4\n"
+                                             "[scene.default]\ninitial = { q = "
+                                          << start << ", v = 0 }\nduration = 2\n"
+                                          << (own ? "observe = [\"q\", \"q^2\"]\n" : "")
+                                          << "[scene.other]\ninitial = { q = 1, v = [1,\n2][1] }\nduration = 3\n"
+                                             "[lagrangian]\nL = \"v^2/2 - k*q^2/2\"\n";
+        options.insert(options.begin(), {"run", "m.toml"});
+        return call(options, {.environment = {{"LAGEN_CACHE", cache.folder}}, .folder = folder});
+    };
+    const auto count = [&] { return cache.records().size(); };
+    const Outcome first = run("1", {"--method", "radau5"});
+    REQUIRE(first.code == 0);
+    REQUIRE(count() == 1); // it has the Jacobian
+    const Outcome explicit_one = run("1", {});
+    CHECK(explicit_one.code == 0);
+    CHECK(run("1", {"--method", "tsit5"}).code == 0);
+    CHECK(run("1", {"--method", "gauss4", "--step", "0.1"}).code == 0);
+    CHECK(run("1", {"--scene", "other"}).code == 0);
+    const Outcome moved = run("2", {});
+    CHECK(moved.out != explicit_one.out);
+    CHECK(count() == 1);
+    CHECK(run("1", {"--method", "gauss8", "--step", "0.1"}).code == 0); // calls packs
+    CHECK(count() == 2);
+    const Outcome observed = run("1", {}, true);
+    CHECK_THAT(observed.out, Contains("q^2"));
+    CHECK(count() == 3);
+    // What is compiled with more has the same bits.
+    const Cache fresh;
+    CHECK(call({"run", "m.toml"}, {.environment = {{"LAGEN_CACHE", fresh.folder}}, .folder = folder}).out ==
+          observed.out);
 }

@@ -14,19 +14,17 @@ constexpr std::string_view chart_heading = "what `lagen chart` of " LAGEN_VERSIO
 
 std::string chart_file(const Options& options, const Model& model)
 {
-    std::vector<std::string> key{"chart",
-                                 options.get("scene"),
-                                 options.get("form"),
-                                 options.get("t-end"),
-                                 options.get("at"),
-                                 options.has("unchecked") ? "unchecked" : ""};
+    ContentHash hash;
+    for (const char* option : {"scene", "form", "t-end", "at", "unchecked"})
+        hash.add(options.has(option) ? option : "").add(options.get(option));
     for (const Setting& setting : options.settings())
-        key.push_back((setting.binds ? "bind " : "set ") + setting.name + "=" + setting.value.text);
+        hash.add(setting.binds ? "bind" : "set").add(setting.name).add(setting.value.text);
     for (const Setting& setting : options.named("initial"))
-        key.push_back("initial " + setting.name + "=" + setting.value.text);
+        hash.add("initial").add(setting.name).add(setting.value.text);
     Model charted = model; // the same whether parameters are bound yet or not
     for (Parameter& parameter : charted.parameters) parameter.bound = false;
-    return record_file(charted, key);
+    add_model(hash, charted);
+    return kept_file(hash.add("chart"));
 }
 
 KeptChart kept_chart(const Chart& chart)

@@ -36,12 +36,11 @@ ChartProblem chart_problem(CheckedModel& checked, const Scene& whole, const std:
     const Scene scene = bare_scene(whole);
     const SceneValues values = evaluate_scene(checked.model, scene);
     const std::vector<long double> parameters = finite_numbers(values.parameters, scene);
-    for (const std::vector<NamedNumber>* group : {&values.base, &values.fibre, &values.momenta, &values.states})
-        (void)finite_numbers(*group, scene);
     set_parameters(checked, parameters);
     ChartProblem problem;
     problem.parameters = doubles_of(parameters);
-    problem.initial = doubles_of(StartState([&](bool) -> const CheckedModel& { return checked; }, form)(values));
+    StartState start([&](bool) -> const CheckedModel& { return checked; }, form);
+    problem.initial = doubles_of(finite_start(start, values, scene));
     const SampleTimes times = sample_times(scene, values, problem.initial.size() + 1, true);
     problem.start = static_cast<double>(times.start);
     problem.end = static_cast<double>(times.end);

@@ -2,7 +2,7 @@
 #include "commands/chart/stability_axes.hpp"
 
 #include "commands/line/options.hpp"
-#include "commands/scene/range.hpp"
+#include "commands/line/values.hpp"
 #include "commands/scene/scene_options.hpp"
 #include "model/families.hpp"
 #include "model/plain_names.hpp"
@@ -24,8 +24,8 @@ constexpr const char* initial_prefix = "initial.";
 /// The name as the model has it.
 std::string name_in_model(const Setting& setting, const std::string& text, const Model& model, const Scene& scene)
 {
-    const bool starts = setting.name.starts_with(initial_prefix);
-    const std::string name = starts ? setting.name.substr(std::string(initial_prefix).size()) : setting.name;
+    const std::optional<std::string> starts = initial_name(setting.name);
+    const std::string name = starts.value_or(setting.name);
     const std::vector<Symbol> symbols = starts ? initial_symbols(model, scene) : free_parameters(model);
     const std::optional<ResolvedKey> key = resolve_key(symbols, name);
     if (key && key->shape.rank == Rank::scalar) return (starts ? initial_prefix : "") + key->name;
@@ -67,10 +67,28 @@ std::vector<StabilityAxis> stability_axes(const std::string& over, const Model& 
     if (axes[1].values.size() * axes[0].values.size() > most_cells)
         refuse_over(over, fmt::format("the chart has more than {} points", most_cells));
     axes[1].name = name_in_model(read_setting("chart", "over", texts[1]), texts[1], model, scene);
-    const bool starts = axes[1].name.starts_with(initial_prefix);
-    const std::string prefix = starts ? initial_prefix : "";
-    axes[1].heading = prefix + plain_names({axes[1].name.substr(prefix.size())}, all_names(model))[0];
+    const std::optional<std::string> starts = initial_name(axes[1].name);
+    axes[1].heading =
+        (starts ? initial_prefix : "") + plain_names({starts.value_or(axes[1].name)}, all_names(model))[0];
     return axes;
+}
+
+std::optional<std::string> initial_name(const std::string& name)
+{
+    const std::string_view prefix = initial_prefix;
+    return name.starts_with(prefix) ? std::optional(name.substr(prefix.size())) : std::nullopt;
+}
+
+std::vector<ColumnPlace> column_places(const std::vector<StabilityAxis>& axes)
+{
+    if (axes.size() < 2) return {{}};
+    const std::optional<std::string> starts = initial_name(axes[1].name);
+    std::vector<ColumnPlace> places;
+    for (const double value : axes[1].values) {
+        ColumnPlace& place = places.emplace_back();
+        (starts ? place.initial : place.parameters)[starts.value_or(axes[1].name)] = static_cast<long double>(value);
+    }
+    return places;
 }
 
 } // namespace lagen

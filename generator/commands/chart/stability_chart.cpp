@@ -8,6 +8,7 @@
 #include "commands/scene/start_state.hpp"
 #include "emit/print_header.hpp"
 #include "lagen_run/archive.hpp"
+#include "linear/linear_system.hpp"
 #include "model/scene_form.hpp"
 #include "scene/sample_times.hpp"
 #include "stability/scheme_limits.hpp"
@@ -34,8 +35,9 @@ Scene stepped_scene(const Scene& scene, const std::vector<StabilityAxis>& axes, 
     stepped.states.reset();
     stepped.events.clear();
     stepped.sampling = {Sampling::Kind::count, nullptr, 2, {}};
-    if (axes.size() > 1 && axes[1].name.starts_with("initial."))
-        set_initial(model, stepped, {axes[1].name.substr(8), whole_text("<--over>", "0")});
+    if (axes.size() > 1)
+        if (const auto name = initial_name(axes[1].name))
+            set_initial(model, stepped, {*name, whole_text("<--over>", "0")});
     return stepped;
 }
 
@@ -106,27 +108,29 @@ std::vector<chart::ColumnStart> column_starts(CheckedModel& checked, const Scene
     StartState start([&](bool) -> const CheckedModel& { return checked; }, chart.form);
     SceneEvaluator evaluate(checked.model, scene);
     std::vector<chart::ColumnStart> starts;
-    const std::vector<double> alone{0};
-    for (const double value : chart.axes.size() > 1 ? chart.axes[1].values : alone) {
-        Values parameters, initial;
-        if (chart.axes.size() > 1) {
-            const std::string& name = chart.axes[1].name;
-            const bool starts = name.starts_with("initial.");
-            (starts ? initial : parameters)[starts ? name.substr(8) : name] = static_cast<long double>(value);
-        }
-        const SceneValues values = evaluate(parameters, initial);
-        const std::vector<long double> numbers = finite_numbers(values.parameters, scene);
-        for (const std::vector<NamedNumber>* group : {&values.base, &values.fibre, &values.momenta})
-            (void)finite_numbers(*group, scene);
-        const std::vector<long double> lanes = start(values);
-        problem.parameters.assign(numbers.begin(), numbers.end());
-        problem.initial.assign(lanes.begin(), lanes.end());
-        const SampleTimes times = sample_times(scene, values, lanes.size() + 1, true);
+    for (const ColumnPlace& place : column_places(chart.axes)) {
+        const SceneValues values = evaluate(place.parameters, place.initial);
+        problem.parameters = doubles_of(finite_numbers(values.parameters, scene));
+        problem.initial = doubles_of(finite_start(start, values, scene));
+        const SampleTimes times = sample_times(scene, values, problem.initial.size() + 1, true);
         problem.start = static_cast<double>(times.start);
         problem.end = static_cast<double>(times.end);
         starts.push_back({problem.parameters, problem.initial});
     }
     return starts;
+}
+
+/// The largest imaginary part of an eigenvalue; of the equations of steps the largest |arg lambda|/h.
+double fastest_oscillation(const chart::LinearParts& parts)
+{
+    const auto lanes = static_cast<Eigen::Index>(parts.lanes);
+    double fastest = 0;
+    for (std::size_t k = 0; k < parts.entries.size(); k += parts.lanes * parts.lanes) {
+        const linear::Matrix part = Eigen::Map<const linear::Matrix>(&parts.entries[k], lanes, lanes);
+        for (const linear::Eigenvalue& value : linear::eigenvalues(part))
+            fastest = std::max(fastest, parts.step > 0 ? std::abs(std::arg(value)) / parts.step : value.imag());
+    }
+    return fastest;
 }
 
 /// Adds what a program answered to what the others did.
@@ -136,6 +140,8 @@ void take_answer(std::string_view answer, StabilityChart& chart)
     if (!detail::take_packed(answer, found) || !answer.empty())
         throw InternalError("a program of a chart gave another answer");
     chart.columns = std::move(found.columns);
+    for (std::size_t j = 0; j < found.linear.size(); ++j)
+        chart.columns.at(j).omega = fastest_oscillation(found.linear[j]);
     for (chart::MethodFates& method : found.methods) chart.methods.push_back({std::move(method)});
 }
 

@@ -64,31 +64,23 @@ class CellStarts {
     [[nodiscard]] std::vector<chart::ColumnStart> all()
     {
         std::vector<chart::ColumnStart> starts;
-        const std::vector<double> alone{0};
-        for (const double value : chart_.axes.size() > 1 ? chart_.axes[1].values : alone)
-            for (const double step : chart_.axes[0].values) starts.push_back(start_of(step, value));
+        for (const ColumnPlace& place : column_places(chart_.axes))
+            for (const double step : chart_.axes[0].values) starts.push_back(start_of(step, place));
         return starts;
     }
 
   private:
-    [[nodiscard]] chart::ColumnStart start_of(double step, double value)
+    [[nodiscard]] chart::ColumnStart start_of(double step, const ColumnPlace& column)
     {
-        Values parameters, initial;
-        if (chart_.axes.size() > 1) {
-            const std::string& name = chart_.axes[1].name;
-            const bool starts = name.starts_with("initial.");
-            (starts ? initial : parameters)[starts ? name.substr(8) : name] = static_cast<long double>(value);
-        }
+        Values parameters = column.parameters;
         const std::string& step_name = model_.discrete->step.name;
         const std::size_t place = step_number(model_);
         const bool own = place == free_parameters(model_).size();
         if (!own) parameters[step_name] = static_cast<long double>(step);
-        const SceneValues values = evaluate_(parameters, initial);
-        for (const std::vector<NamedNumber>* group : {&values.base, &values.fibre, &values.momenta})
-            (void)finite_numbers(*group, scene_);
+        const SceneValues values = evaluate_(parameters, column.initial);
         std::vector<double> numbers = doubles_of(finite_numbers(values.parameters, scene_));
         if (own) numbers.push_back(step);
-        return {std::move(numbers), doubles_of(start_(values))};
+        return {std::move(numbers), doubles_of(finite_start(start_, values, scene_))};
     }
 
     const Model& model_;

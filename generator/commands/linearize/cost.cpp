@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/linearize/cost.hpp"
+#include "commands/line/values.hpp"
 
 #include "commands/scene/scene_options.hpp"
 

@@ -28,7 +28,7 @@ std::vector<std::string> names_of_lifts(const SystemMorphism& map)
 
 LiftedTarget lifted_target(const Model& target, const SystemMorphism& map, const std::vector<NamedNumber>& parameters)
 {
-    LiftedTarget lifted{target, names_of_lifts(map), ""};
+    LiftedTarget lifted{target, names_of_lifts(map)};
     Graph graph = map.source.graph;
     Replacements values;
     for (const auto& [name, value] : parameters)
@@ -48,7 +48,6 @@ LiftedTarget lifted_target(const Model& target, const SystemMorphism& map, const
         FirstOrderState state;
         state.symbol.name = lifted.names[i];
         state.rate = to_tree(graph, rates[i]);
-        lifted.rates += fmt::format("{}' = {}\n", state.symbol.name, to_text(state.rate));
         lifted.model.states.push_back(std::move(state));
     }
     return lifted;

@@ -12,7 +12,6 @@ namespace lagen {
 struct LiftedTarget {
     Model model;                    ///< the target with the base coordinates of the source as first-order states
     std::vector<std::string> names; ///< of these states
-    std::string rates;              ///< as text: what a program rests on beside the model's file
 };
 
 /// Phi^-1 by Cramer's rule, of a map that is shown to be an isomorphism of fibres: then these have no more than

@@ -10,17 +10,30 @@
 
 namespace lagen {
 
-OverlaidRun::OverlaidRun(const Options& options, const CheckedModel& checked, const Scene& first,
-                         const std::string& name)
-    : checked_(checked), run_(options, checked_, options.get("method"), {"overlay", name})
+namespace {
+
+Scene overlaid_scene(const Options& options, const Model& model, const Scene& first, const std::string& name)
 {
-    Scene scene = scene_of(options, checked_.model, options.named("initial"), name);
+    Scene scene = scene_of(options, model, options.named("initial"), name);
     scene.plot = first.plot;
     scene.observe = first.observe;
     scene.states = first.states;
-    const MethodEntry& method = method_of(options, scene);
-    run_.prepare(std::move(scene), method, options.has("at") && !options.has("t-end"));
-    outcome_ = run_.integrate();
+    return scene;
+}
+
+} // namespace
+
+OverlaidRun::OverlaidRun(const Options& options, const CheckedModel& checked, const Scene& first,
+                         const std::string& name)
+    : OverlaidRun(options, checked, overlaid_scene(options, checked.model, first, name))
+{
+}
+
+OverlaidRun::OverlaidRun(const Options& options, const CheckedModel& checked, const Scene& scene)
+    : checked_(checked),
+      run_(options, checked_, scene, method_of(options, scene), options.has("at") && !options.has("t-end")),
+      outcome_(run_.integrate())
+{
     if (is_interrupted(outcome_)) throw InterruptedError("lagen: interrupted while drawing");
 }
 

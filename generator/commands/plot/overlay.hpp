@@ -23,6 +23,8 @@ class OverlaidRun {
     }
 
   private:
+    OverlaidRun(const Options& options, const CheckedModel& checked, const Scene& scene);
+
     CheckedModel checked_;
     SceneRun run_;
     RunOutcome outcome_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/scene/domain_walls.hpp"
 
+#include "model/scene_form.hpp"
+
 #include <algorithm>
 
 namespace lagen {
@@ -17,8 +19,10 @@ bool moves(const Tree& condition, const Model& model)
 
 } // namespace
 
-void add_walls(Scene& scene, const Model& model)
+Scene with_walls(const Model& model, Scene scene)
 {
+    scene.form = form_of(model, scene);
+    if (form_named(scene.form).steps) return scene;
     for (const Tree& condition : model.base.domain) {
         if (condition->comparison != Comparison::not_equal || !moves(condition, model)) continue;
         Event wall;
@@ -27,6 +31,7 @@ void add_walls(Scene& scene, const Model& model)
         wall.stop = true;
         scene.events.push_back(std::move(wall));
     }
+    return scene;
 }
 
 void call_walls(RunOutcome& outcome)

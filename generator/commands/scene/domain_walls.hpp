@@ -8,9 +8,9 @@
 
 namespace lagen {
 
-/// Adds such an event to the scene for each wall that can move away from the sign of its start; those of parameters
-/// alone cannot.
-void add_walls(Scene& scene, const Model& model);
+/// The scene, with its form, and of a motion in continuous time with such an event for each wall that can move away
+/// from the sign of its start; those of parameters alone cannot.
+[[nodiscard]] Scene with_walls(const Model& model, Scene scene);
 
 /// A run that a wall has stopped has left the domain.
 void call_walls(RunOutcome& outcome);

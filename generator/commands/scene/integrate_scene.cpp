@@ -67,7 +67,6 @@ bool run_in_process(const std::string& path, const ProgramInput& input, const de
     const InterruptFlag interrupt;
     const std::string not_loaded =
         integrate_compiled(path, input.method_type, job_of(input), rows, interrupt.flag(), outcome);
-    if (not_loaded == job_is_of_another_model) throw InternalError(not_loaded);
     if (!not_loaded.empty())
         throw MachineError(fmt::format("error: the compiled model could not be loaded: {}\nhint: remove '{}' to have "
                                        "it compiled again",
@@ -102,13 +101,6 @@ void integrate_scene(const std::string& program, const ProgramInput& input, RunO
         outcome.status = "interrupted";
         throw InterruptedError("lagen: interrupted, nothing was written");
     }
-    // A run that was refused at its start has measured nothing.
-    const bool refused = outcome.status == "not_separable" || outcome.status == "invalid_input" ||
-                         outcome.status == "singular_mass_matrix";
-    if (!refused || outcome.steps > 0) return;
-    for (auto* drifts : {&outcome.invariants, &outcome.balance, &outcome.casimirs, &outcome.constraints})
-        drifts->clear();
-    outcome.manifold.reset();
 }
 
 } // namespace lagen

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/scene/methods.hpp"
 
-#include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
-#include "commands/machine/write_file.hpp"
-#include "commands/scene/stability_table.hpp"
-#include "emit/json.hpp"
 
 #include <fmt/core.h>
 
@@ -147,27 +143,6 @@ constexpr std::array<std::pair<const char*, const char*>, 18> names_elsewhere{{{
                                                                                {"dprkn12", "rkn1210"},
                                                                                {"finerkn5", "rkng54"}}};
 
-const CommandSyntax methods_syntax{
-    "methods",
-    "",
-    "Lists the integrators.",
-    {{"stability", nullptr,
-      "how long their steps may be on linear equations: intervals of the imaginary and real axes"},
-     {"format,f", "FORMAT", "text or json", "text"}}};
-
-void method_json(JsonWriter& json, const MethodEntry& entry)
-{
-    json.begin_object()
-        .key("name")
-        .value(entry.name)
-        .key("order")
-        .value(entry.order)
-        .key("adaptive")
-        .value(entry.adaptive);
-    json.key("separable_only").value(entry.kind == MethodKind::splitting).key("text").value(entry.text);
-    json.key("keeps").value(entry.keeps).key("system").value(system_of(entry)).end_object();
-}
-
 } // namespace
 
 std::span<const MethodEntry> method_table()
@@ -235,34 +210,6 @@ std::span<const std::string> method_names()
         return list;
     }();
     return names;
-}
-
-ExitCode run_methods(Arguments arguments)
-{
-    const Options options(methods_syntax, arguments);
-    if (options.help()) return ExitCode::done;
-    const bool as_json = options.choice("format", {"text", "json"}) == "json";
-    if (options.has("stability")) {
-        write_standard_output(as_json ? stability_table_json() : stability_table_text());
-        return ExitCode::done;
-    }
-    if (as_json) {
-        JsonWriter json;
-        json.begin_array();
-        for (const MethodEntry& entry : entries) method_json(json, entry);
-        json.end_array();
-        write_standard_output(json.text() + "\n");
-        return ExitCode::done;
-    }
-    std::string text;
-    for (const MethodEntry& entry : entries) {
-        const std::string keeps = entry.keeps, system = system_of(entry);
-        text += fmt::format("{:<17}order {:<8}{:<10}{}{}{}\n", entry.name, entry.order,
-                            entry.adaptive ? "tolerance" : "step", entry.text, keeps.empty() ? "" : ", " + keeps,
-                            system.empty() ? "" : fmt::format(" (for {} only)", system));
-    }
-    write_standard_output(text);
-    return ExitCode::done;
 }
 
 } // namespace lagen

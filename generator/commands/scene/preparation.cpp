@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/scene/preparation.hpp"
 
+#include "content_hash.hpp"
 #include "mechanics/quadrature.hpp"
 #include "methods/integrate_compiled.hpp"
 #include "model/form.hpp"
@@ -89,30 +90,31 @@ std::string vectors_of(const Driver& driver)
     return options.empty() ? "" : options.front();
 }
 
-/// What a picture asks of the program besides the scene's columns.
-std::string plot_of(const Options& options, const Model& model)
+/// What is compiled for a method, in the names of records. Methods that take every system share a compiled model, and
+/// one with more kernels than they ask for serves them: the first name is theirs.
+std::vector<std::string> compiled_for(const MethodEntry& method, const Driver& driver)
 {
-    if (!options.has("plot")) return "";
-    std::string text = options.get("like");
-    for (const std::string& curves : options.all("curves")) text += curves + "\n";
-    const bool given = std::ranges::any_of(model.scenes, [](const Scene& scene) { return scene.plot.has_value(); });
-    return given || !text.empty() ? "plot " + text : "";
+    const std::optional<KernelsAsked> asked = integrates_compiled(method.type);
+    const bool takes_all = (method.kind == MethodKind::explicit_stages || method.kind == MethodKind::implicit_stages) &&
+                           method.system == SecondOrder::Kind::no;
+    if (driver.abreast || !asked || !takes_all) return {method.name};
+    if (asked->packs) return {"jacobian and packs"};
+    if (asked->jacobian) return {"jacobian", "jacobian and packs"};
+    return {"rhs", "jacobian", "jacobian and packs"};
 }
 
-/// Of a record, beside the model.
-std::vector<std::string> rests_on(const Options& options, const Model& model, const Driver& driver,
-                                  const std::string& method, const std::vector<std::string>& kept_as)
+/// The files of the records that serve this scene and method, that of its own first.
+std::vector<std::string> record_files(const Options& options, const Model& model, const Scene& scene,
+                                      const MethodEntry& method, const Driver& driver)
 {
-    std::vector<std::string> texts{driver.folder,
-                                   options.get("scene"),
-                                   options.get("form"),
-                                   method,
-                                   options.get("time-scale"),
-                                   options.has("unchecked") ? "unchecked" : "",
-                                   vectors_of(driver),
-                                   plot_of(options, model)};
-    texts.insert(texts.end(), kept_as.begin(), kept_as.end());
-    return texts;
+    ContentHash hash;
+    add_model(hash, model, false);
+    add_scene(hash, model, scene);
+    hash.add(driver.folder).add(vectors_of(driver)).add(options.has("unchecked") ? "unchecked" : "");
+    std::vector<std::string> files;
+    for (const std::string& name : compiled_for(method, driver))
+        files.push_back(kept_file(ContentHash(hash).add(name)));
+    return files;
 }
 
 } // namespace
@@ -209,12 +211,13 @@ SceneText scene_text(const CheckedModel& checked, const Scene& scene, const std:
     return {std::move(generated.module), std::move(text)};
 }
 
-Preparation::Preparation(const Options& options, CheckedModel& checked, const Driver& driver, const std::string& method,
-                         const std::vector<std::string>& kept_as)
-    : options_(options), checked_(checked), driver_(driver),
-      file_(record_file(checked.model, rests_on(options, checked.model, driver, method, kept_as))),
-      record_(find_record(file_))
+Preparation::Preparation(const Options& options, CheckedModel& checked, const Scene& scene, const MethodEntry& method,
+                         const Driver& driver)
+    : options_(options), checked_(checked), scene_(scene), method_(method), driver_(driver)
 {
+    const std::vector<std::string> files = record_files(options, checked.model, scene, method, driver);
+    file_ = files[0];
+    for (std::size_t k = 0; k < files.size() && !record_; ++k) record_ = find_record(files[k]);
     if (record_) {
         checked.warnings = record_->warnings;
         return;
@@ -223,17 +226,16 @@ Preparation::Preparation(const Options& options, CheckedModel& checked, const Dr
     elaborated_ = decided_ = true;
 }
 
-void Preparation::finish(const Scene& scene, const std::string& form, const MethodEntry& method,
-                         const std::vector<long double>& parameters, const std::function<void(const RunRecord&)>& look)
+void Preparation::finish(const std::vector<long double>& parameters, const std::function<void(const RunRecord&)>& look)
 {
     if (record_ && (is_decided_for(*record_, parameters) || says_the_same(*record_, checked(parameters, true))))
         return look(*record_);
     if (record_) prove(checked_);
     elaborated_ = decided_ = true;
     set_parameters(checked_, parameters);
-    const SceneText made = scene_text(checked_, scene, form, method, driver_);
-    require_system(options_, scene, method, checked_, made.module);
-    record_ = record_of(checked_, made.module, form, parameters);
+    const SceneText made = scene_text(checked_, scene_, scene_.form, method_, driver_);
+    require_system(options_, scene_, method_, checked_, made.module);
+    record_ = record_of(checked_, made.module, scene_.form, parameters);
     look(*record_);
     record_->program = compile_programs({made.text})[0];
     keep_record(file_, *record_);

@@ -35,15 +35,14 @@ struct SceneText {
 
 class Preparation {
   public:
-    /// `checked` was read; it is proved, or has the warnings of the record. Throws where it is refuted. `method` is the
-    /// name that was asked for, or empty; `kept_as` tells the record apart from that of the same options alone.
-    Preparation(const Options& options, CheckedModel& checked, const Driver& driver, const std::string& method,
-                const std::vector<std::string>& kept_as = {});
+    /// `checked` was read; it is proved, or has the warnings of a record that serves `scene`, which has its form, and
+    /// `method`. Throws where it is refuted. Keeps references to all.
+    Preparation(const Options& options, CheckedModel& checked, const Scene& scene, const MethodEntry& method,
+                const Driver& driver);
 
     /// Throws where the method asks for other equations. `look` sees the record, its program apart, before anything is
     /// compiled: what it throws costs nobody the compiler's seconds.
-    void finish(const Scene& scene, const std::string& form, const MethodEntry& method,
-                const std::vector<long double>& parameters, const std::function<void(const RunRecord&)>& look);
+    void finish(const std::vector<long double>& parameters, const std::function<void(const RunRecord&)>& look);
 
     /// After `finish`.
     [[nodiscard]] const RunRecord& record() const { return *record_; }
@@ -54,6 +53,8 @@ class Preparation {
   private:
     const Options& options_;
     CheckedModel& checked_;
+    const Scene& scene_;
+    const MethodEntry& method_;
     Driver driver_;
     std::string file_;
     std::optional<RunRecord> record_;

@@ -8,6 +8,7 @@
 #include "mechanics/discrete.hpp"
 #include "model/families.hpp"
 #include "model/form.hpp"
+#include "model/read_curve.hpp"
 
 #include <fmt/core.h>
 
@@ -33,7 +34,7 @@ std::string line_of(const System& system, const Regularity& known)
     return line;
 }
 
-constexpr std::string_view first_line = "what `lagen run` of " LAGEN_VERSION " proved and compiled, packed\n";
+constexpr std::string_view first_line = "what lagen " LAGEN_VERSION " proved and compiled, packed\n";
 
 /// The program that runs: its place, size and time.
 void add_lagen(ContentHash& hash)
@@ -42,6 +43,24 @@ void add_lagen(ContentHash& hash)
     const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
     hash.add(program.string()).add(std::to_string(fs::file_size(program, ignored)));
     hash.add(std::to_string(fs::last_write_time(program, ignored).time_since_epoch().count()));
+}
+
+/// Without the tables of scenes: no proof and no kernel rests on those. A line of values that begins with a bracket may
+/// end what is left out early.
+std::string text_without_scenes(const Model& model)
+{
+    const std::string& whole = model.file->text;
+    std::string text;
+    bool in_scene = false;
+    for (std::size_t begin = 0, end = 0; begin < whole.size(); begin = end) {
+        end = std::min(whole.find('\n', begin), whole.size() - 1) + 1;
+        const std::string_view line(whole.data() + begin, end - begin);
+        const auto is_head = [&](const Scene& scene) { return begin <= scene.where.begin && scene.where.begin < end; };
+        if (line.starts_with('['))
+            in_scene = line.starts_with("[scene.") && (in_scene || std::ranges::any_of(model.scenes, is_head));
+        if (!in_scene) text += line;
+    }
+    return text;
 }
 
 } // namespace
@@ -62,22 +81,36 @@ RunRecord record_of(const CheckedModel& checked, const KernelModule& module, con
     return record;
 }
 
-void add_model(ContentHash& hash, const Model& model)
+void add_model(ContentHash& hash, const Model& model, bool scenes)
 {
-    hash.add(lines_of_code(model.file->text, "#"));
+    hash.add(lines_of_code(scenes ? model.file->text : text_without_scenes(model), "#"));
     for (const auto& file : model.included) hash.add(lines_of_code(file->text, "#"));
     for (const Size& size : model.sizes) hash.add(size.name).add(std::to_string(size.value));
-}
-
-std::string record_file(const Model& model, const std::vector<std::string>& options)
-try {
-    ContentHash hash;
-    hash.add(std::string(first_line));
-    add_model(hash, model);
-    for (const std::string& option : options) hash.add(option);
     if (std::ranges::any_of(model.parameters, &Parameter::bound))
         for (const Parameter& parameter : model.parameters)
             hash.add(parameter.bound ? "constant" : "").add(to_text(parameter.value));
+}
+
+void add_scene(ContentHash& hash, const Model& model, const Scene& scene)
+{
+    const auto add_all = [&hash](const char* what, const std::vector<NamedTree>& trees) {
+        hash.add(what);
+        for (const NamedTree& tree : trees) hash.add(tree.name).add(to_text(tree.value));
+    };
+    hash.add(scene.form);
+    add_all(scene.observe ? "observe" : "all", scene.observe.value_or(std::vector<NamedTree>()));
+    add_all("plot", plot_coordinates(scene));
+    add_all(scene.input_table ? "table" : "inputs", scene.inputs);
+    for (const Event& event : scene.events)
+        add_all("event", {{event.name, event.when, {}}}), add_all("jump", event.jump);
+    hash.add(scene.time_scale == nullptr ? "" : to_text(scene.time_scale));
+    for (const FirstOrderState& state : model.states) // a command may have added some
+        hash.add(state.symbol.name).add(state.rate == nullptr ? "" : to_text(state.rate));
+}
+
+std::string kept_file(ContentHash hash)
+try {
+    hash.add(std::string(first_line));
     add_lagen(hash);
     add_compilation(hash);
     return fmt::format("{}/{}.run", cache_folder(), hash.hex32());

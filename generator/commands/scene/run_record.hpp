@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// What a run proved and compiled, kept in the cache beside the program: the next run of the same text, form and method
-/// reads it, and goes from the values of its scene straight to the program.
+/// What a run proved and compiled, kept in the cache beside the program: the next run of the same equations, with the
+/// same kernels, reads it, and goes from the values of its scene straight to the program.
 #pragma once
 
 #include "commands/scene/scene_program.hpp"
@@ -36,13 +36,16 @@ struct RunRecord {
 [[nodiscard]] RunRecord record_of(const CheckedModel& checked, const KernelModule& module, const std::string& form,
                                   const std::vector<long double>& parameters);
 
-/// The text of the model and of the files that it includes, without lines of comments, and its sizes.
-void add_model(ContentHash& hash, const Model& model);
+/// The text of the model and of the files that it includes, without lines of comments, its sizes and the parameters
+/// that are bound. Without `scenes` their tables are left out: what is proved does not rest on them.
+void add_model(ContentHash& hash, const Model& model, bool scenes = true);
 
-/// The file of the record of `model`, under a name made from what a run rests on besides the values of parameters and
-/// scenes: the text of the model and of the files that it includes, its sizes, `options` as they were given, lagen
-/// itself, the runtime and the compiler. Empty where there is no compiler, or no place for a cache.
-[[nodiscard]] std::string record_file(const Model& model, const std::vector<std::string>& options);
+/// What the kernels of a scene rest on besides its model: not its name, its start, its times, its tolerances.
+void add_scene(ContentHash& hash, const Model& model, const Scene& scene);
+
+/// The file in the cache for what has this hash, with lagen itself, the runtime and the compiler. Empty where there is
+/// no compiler, or no place for a cache.
+[[nodiscard]] std::string kept_file(ContentHash hash);
 
 /// Nothing where there is no record, where it or its program is damaged, or its program is gone.
 [[nodiscard]] std::optional<RunRecord> find_record(const std::string& file);

@@ -2,6 +2,7 @@
 /// The command line wins over the scene.
 #include "commands/scene/scene_options.hpp"
 
+#include "commands/line/values.hpp"
 #include "commands/machine/write_file.hpp"
 #include "expression/parse.hpp"
 #include "model/families.hpp"
@@ -75,16 +76,6 @@ void set_plot(const Options& options, const Model& model, Scene& scene)
     if (options.has("sphere")) scene.plot->sphere = true;
 }
 
-void require_parameters(const Model& model, const std::string& name, const Excerpt& text,
-                        const std::vector<Tree>& trees)
-{
-    for (const Tree& tree : trees)
-        for (const std::string& used : names_in(tree))
-            if (std::ranges::none_of(model.parameters, [&](const Parameter& each) { return each.symbol.name == used; }))
-                throw ModelError(fmt::format("--{} depends on '{}', which is no parameter", name, used),
-                                 text.range(0, text.text.size()), "give numbers, or expressions of parameters");
-}
-
 /// A step where the step is chosen, or a tolerance where it is fixed.
 void warn_of_unused(const Options& options, const MethodEntry& method)
 {
@@ -138,20 +129,6 @@ void require_form_of(const Options& options, const Scene& scene, const MethodEnt
 }
 
 } // namespace
-
-ArrayValue option_array(const Model& model, const std::string& name, const Excerpt& text)
-{
-    ArrayValue value = model.scope.close_array(parse_expression(text));
-    require_parameters(model, name, text, value.entries);
-    return value;
-}
-
-Tree option_tree(const Model& model, const std::string& name, const Excerpt& text)
-{
-    const Tree tree = model.scope.close(parse_expression(text));
-    require_parameters(model, name, text, {tree});
-    return tree;
-}
 
 Tree time_scale_of(const Options& options, const Model& model)
 {

@@ -27,20 +27,15 @@ inline constexpr const char* standard_method = "dop853";
 /// Gives the start of `scene` another value; ModelError where it has none of that name.
 void set_initial(const Model& model, Scene& scene, const Setting& setting);
 
-/// What is given to --NAME, closed over parameters; ModelError where it depends on anything else.
-[[nodiscard]] Tree option_tree(const Model& model, const std::string& name, const Excerpt& text);
-/// The same of a number, a vector or a matrix.
-[[nodiscard]] ArrayValue option_array(const Model& model, const std::string& name, const Excerpt& text);
-
 /// What --time-scale gives, closed over the model's names; null where it is not given.
 [[nodiscard]] Tree time_scale_of(const Options& options, const Model& model);
 
-/// The scene's method; UsageError or ModelError (by where the name stands) where it is unknown, lacks a step, or
-/// takes no time scale. Warns on standard error of what it does not use.
 /// Throws where the form of the scene is a motion from step to step: `what` is made of curves.
 void require_curve(const Options& options, const Scene& scene, const char* what);
 /// The same where an event of the scene jumps.
 void require_no_jumps(const Options& options, const Scene& scene, const char* what);
+/// The scene's method; UsageError or ModelError (by where the name stands) where it is unknown, lacks a step, or
+/// takes no time scale. Warns on standard error of what it does not use.
 [[nodiscard]] const MethodEntry& method_of(const Options& options, const Scene& scene);
 
 } // namespace lagen

@@ -60,10 +60,9 @@ std::vector<std::string> entries_of(const KernelModule& module, const char* kern
 std::string program_text(const Driver& driver, const std::string& name, const MethodEntry& method, bool reversible)
 {
     const std::string type = reversible ? fmt::format("Reversible<lagen::{}>", method.type) : method.type;
-    return fmt::format("#include \"model.hpp\"\n#include \"{}/driver.hpp\"\nint main({})\n{{\n    return "
-                       "lagen::{}<lagen::models::{}<double>, lagen::{}>({});\n}}\n",
-                       driver.folder, driver.takes_arguments ? "int argc, char** argv" : "", driver.function,
-                       cpp_names({name})[0], type, driver.takes_arguments ? "argc, argv" : "");
+    return fmt::format("#include \"model.hpp\"\n#include \"{}/driver.hpp\"\nint main(int argc, char** argv)\n{{\n"
+                       "    return lagen::{}<lagen::models::{}<double>, lagen::{}>(argc, argv);\n}}\n",
+                       driver.folder, driver.function, cpp_names({name})[0], type);
 }
 
 std::string model_text(const std::string& name, bool packs)
@@ -100,10 +99,8 @@ std::vector<TableColumn> columns_of(const TableNames& names, const Scene& scene)
 void use_values(ProgramInput& input, const Scene& scene, const SceneValues& values, StartState& start, bool stretch)
 {
     input.parameters = finite_numbers(values.parameters, scene);
-    for (const std::vector<NamedNumber>* group : {&values.base, &values.fibre, &values.momenta, &values.states})
-        (void)finite_numbers(*group, scene);
+    input.initial = finite_start(start, values, scene);
     input.times = sample_times(scene, values, input.columns.size() + 1, stretch);
-    input.initial = start(values);
     input.from_arrow = starts_from_arrow(values);
     if (values.own_step) input.parameters.push_back(*values.step);
     if (!values.discrete) input.step = values.step;

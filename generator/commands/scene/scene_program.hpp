@@ -15,11 +15,10 @@ namespace lagen {
 struct Driver {
     const char* folder;
     const char* function;
-    bool takes_arguments = true;
     bool abreast = false; ///< several trajectories at a time, where the method allows it
 };
 inline constexpr Driver run_driver{"lagen_run", "drive"};
-inline constexpr Driver sweep_driver{"lagen_sweep", "sweep", false, true};
+inline constexpr Driver sweep_driver{"lagen_sweep", "sweep", true};
 
 /// The whole main of the program that integrates class `name` (of header "model.hpp") with `method`.
 [[nodiscard]] std::string program_text(const Driver& driver, const std::string& name, const MethodEntry& method,

@@ -16,28 +16,20 @@
 
 namespace lagen {
 
-SceneRun::SceneRun(const Options& options, CheckedModel& checked, const std::string& method,
-                   const std::vector<std::string>& kept_as)
-    : options_(options), checked_(checked), preparation_(options, checked, run_driver, method, kept_as)
+SceneRun::SceneRun(const Options& options, CheckedModel& checked, Scene scene, const MethodEntry& method, bool stretch)
+    : options_(options), checked_(checked), scene_(with_walls(checked.model, std::move(scene))), method_(method),
+      preparation_(options, checked, scene_, method, run_driver)
 {
     for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
-}
-
-void SceneRun::prepare(Scene scene, const MethodEntry& method, bool stretch)
-{
-    scene_ = std::move(scene);
-    method_ = &method;
-    form_ = form_of(checked_.model, scene_);
-    values_ = evaluate_scene(checked_.model, scene_);
-    if (!values_.discrete) add_walls(scene_, checked_.model);
+    values_ = evaluate_scene(checked.model, scene_);
     parameters_ = finite_numbers(values_.parameters, scene_);
     input_.events = &scene_.events;
     input_.method_type = method.type;
     const auto decided = [this](bool needed) -> const CheckedModel& {
         return preparation_.checked(parameters_, needed);
     };
-    start_.emplace(decided, form_);
-    preparation_.finish(scene_, form_, method, parameters_, [&](const RunRecord& found) {
+    start_.emplace(decided, scene_.form);
+    preparation_.finish(parameters_, [&](const RunRecord& found) {
         input_.columns = columns_of(found.names, scene_);
         use_values(input_, scene_, values_, *start_, stretch);
         if (scene_.input_table)
@@ -49,10 +41,10 @@ std::string SceneRun::not_finite(const RunOutcome& outcome)
 {
     const bool fails =
         outcome.status == "non_finite" || outcome.status == "step_too_small" || outcome.status == "newton_diverged";
-    if (!fails || method_->kind != MethodKind::implicit_stages || values_.discrete) return {};
+    if (!fails || method_.kind != MethodKind::implicit_stages || values_.discrete) return {};
     const CheckedModel& checked = preparation_.checked(parameters_, true);
     KernelRequest request;
-    request.form = form_;
+    request.form = form();
     request.only = {"rhs"};
     request.scene = &scene_;
     std::map<std::string, double> at{{"t", outcome.t}};
@@ -67,17 +59,17 @@ RunOutcome SceneRun::integrate()
     RunOutcome outcome;
     outcome.model = checked_.model.name;
     outcome.scene = scene_.name;
-    outcome.form = form_;
-    outcome.method = method_->name;
+    outcome.form = form();
+    outcome.method = method_.name;
     outcome.energy_changes = record().energy_changes;
     outcome.searches = record().searches;
     outcome.branch = input_.branch.value_or(0);
-    if (method_->adaptive && input_.absolute)
+    if (method_.adaptive && input_.absolute)
         outcome.absolute = fmt::format("{}", static_cast<double>(*input_.absolute));
     outcome.table.columns = {"t"};
     for (const TableColumn& column : input_.columns) outcome.table.columns.push_back(column.name);
     outcome.lanes = record().names.lanes;
-    outcome.left_out = names_without_values(checked_.model, form_);
+    outcome.left_out = names_without_values(checked_.model, form());
     if (!is_uninterrupted([&] { integrate_scene(record().program, input_, outcome); })) return outcome;
     if (is_nonholonomic(checked_.model) && outcome.energy_changes) // reactions and drifts work on it: no invariant
         std::erase_if(outcome.invariants, is_energy);
@@ -88,7 +80,7 @@ RunOutcome SceneRun::integrate()
             outcome.largest_step = largest_step(checked_.model, scene_, record().program, input_, *start_, outcome);
         });
     if (const SecondRun second = second_run_of(options_); second != SecondRun::none)
-        judge_state({checked_.model, scene_, *method_, record().program, input_, *start_}, second, outcome);
+        judge_state({checked_.model, scene_, method_, record().program, input_, *start_}, second, outcome);
     return outcome;
 }
 

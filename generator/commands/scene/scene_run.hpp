@@ -9,26 +9,22 @@ namespace lagen {
 
 class SceneRun {
   public:
-    /// Proves the model, or finds the record of an earlier run, and writes the model's warnings to standard error.
-    /// `method` and `kept_as` as for Preparation, whose errors it throws. Keeps references.
-    SceneRun(const Options& options, CheckedModel& checked, const std::string& method,
-             const std::vector<std::string>& kept_as = {});
+    /// Proves the model, or finds the record of an earlier run, writes the model's warnings to standard error, and has
+    /// the program of `scene` and everything that it is told. `stretch` as for sample_times. Throws as Preparation and
+    /// evaluate_scene do. Keeps references to the others.
+    SceneRun(const Options& options, CheckedModel& checked, Scene scene, const MethodEntry& method, bool stretch);
     SceneRun(const SceneRun&) = delete;
     SceneRun& operator=(const SceneRun&) = delete;
 
-    /// Has the program of `scene`, which has its form, and everything that the program is told. `stretch` as for
-    /// sample_times.
-    void prepare(Scene scene, const MethodEntry& method, bool stretch);
-
-    /// After `prepare`: runs the program, and a second time for what its state is worth (second_run.hpp). Of a discrete
+    /// Runs the program, and a second time for what its state is worth (second_run.hpp). Of a discrete
     /// motion that failed the largest step that goes on is sought, unless parameters are bound. An interrupt leaves the
     /// rows so far, with the status "interrupted".
     [[nodiscard]] RunOutcome integrate();
 
     [[nodiscard]] const CheckedModel& checked() const { return checked_; }
     [[nodiscard]] const Scene& scene() const { return scene_; }
-    [[nodiscard]] const std::string& form() const { return form_; }
-    [[nodiscard]] const MethodEntry& method() const { return *method_; }
+    [[nodiscard]] const std::string& form() const { return scene_.form; }
+    [[nodiscard]] const MethodEntry& method() const { return method_; }
     [[nodiscard]] const SceneValues& values() const { return values_; }
     [[nodiscard]] const RunRecord& record() const { return preparation_.record(); }
     [[nodiscard]] const ProgramInput& input() const { return input_; }
@@ -41,10 +37,9 @@ class SceneRun {
 
     const Options& options_;
     CheckedModel& checked_;
-    Preparation preparation_;
     Scene scene_;
-    std::string form_;
-    const MethodEntry* method_ = nullptr;
+    const MethodEntry& method_;
+    Preparation preparation_;
     SceneValues values_;
     std::vector<long double> parameters_;
     ProgramInput input_;

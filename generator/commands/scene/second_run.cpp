@@ -122,7 +122,7 @@ void judge_state(const RunSetting& run, SecondRun wanted, RunOutcome& outcome)
     }
     outcome.accuracy = accuracy_of(outcome.table, second.table, input->times.kind == Sampling::Kind::event);
     if (!outcome.accuracy)
-        outcome.second_run += " has no row to compare";
+        outcome.second_run = outcome.second_run.substr(0, outcome.second_run.find(':')) + " has no row to compare";
     else if (!succeeded(second.status) && second.status != outcome.status)
         outcome.second_run += fmt::format(", which ends at t = {:.6g}: {}", second.t, second.status);
 }

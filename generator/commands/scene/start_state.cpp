@@ -151,6 +151,13 @@ bool starts_from_arrow(const SceneValues& values)
     return !values.element.empty() || !values.next.empty();
 }
 
+std::vector<long double> finite_start(StartState& start, const SceneValues& values, const Scene& scene)
+{
+    for (const std::vector<NamedNumber>* group : {&values.base, &values.fibre, &values.momenta, &values.states})
+        (void)finite_numbers(*group, scene);
+    return start(values);
+}
+
 std::vector<long double> finite_numbers(const std::vector<NamedNumber>& named, const Scene& scene)
 {
     std::vector<long double> values;

@@ -58,6 +58,9 @@ class StartState {
 /// Whether the momenta of the start are those of its arrow.
 [[nodiscard]] bool starts_from_arrow(const SceneValues& values);
 
+/// The lanes where a run of `scene` starts. Throws as `start` does, and as finite_numbers of what the scene gives.
+[[nodiscard]] std::vector<long double> finite_start(StartState& start, const SceneValues& values, const Scene& scene);
+
 /// The numbers in the order of `named`. Throws ModelError where a double, as the compiled scene has it, cannot hold
 /// one.
 [[nodiscard]] std::vector<long double> finite_numbers(const std::vector<NamedNumber>& named, const Scene& scene);

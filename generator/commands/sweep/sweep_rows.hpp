@@ -3,7 +3,7 @@
 #pragma once
 
 #include "commands/line/options.hpp"
-#include "commands/scene/range.hpp"
+#include "commands/line/values.hpp"
 
 #include <cstdint>
 #include <functional>

@@ -2,8 +2,8 @@
 #include "commands/variations/variation_states.hpp"
 
 #include "commands/line/options.hpp"
+#include "commands/line/values.hpp"
 #include "commands/machine/philox.hpp"
-#include "commands/scene/range.hpp"
 #include "commands/scene/scene_options.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/lower.hpp"
@@ -71,15 +71,12 @@ class VariationStates {
         for (const Setting& setting : start) place_start(setting);
     }
 
-    [[nodiscard]] const std::string& text() const { return text_; }
-
   private:
     void add(const std::string& state_name, Tree rate)
     {
         FirstOrderState state;
         state.symbol.name = state_name;
         state.rate = std::move(rate);
-        text_ += fmt::format("{}' = {}\n", state_name, to_text(state.rate));
         model_.states.push_back(std::move(state));
         if (scene_.observe) scene_.observe->push_back({state_name, name(state_name), {}});
     }
@@ -126,7 +123,6 @@ class VariationStates {
     const System& system_;
     Scene& scene_;
     Graph graph_;
-    std::string text_;
 };
 
 } // namespace
@@ -141,8 +137,8 @@ VariationRequest variations_of(const Options& options)
     return request;
 }
 
-std::string add_variation_states(Model& model, const System& system, Scene& scene, const VariationRequest& request,
-                                 const SampleTimes& times)
+void add_variation_states(Model& model, const System& system, Scene& scene, const VariationRequest& request,
+                          const SampleTimes& times)
 {
     const auto refuse = [&](const char* what, const char* hint) {
         throw MathematicsError(fmt::format("variations are those of the action of a Lagrangian, and {}", what), hint);
@@ -156,7 +152,6 @@ std::string add_variation_states(Model& model, const System& system, Scene& scen
     VariationStates states(model, system, scene);
     if (request.count > 0) states.add_action(request, times);
     if (!request.field.empty()) states.add_field(request.field);
-    return states.text();
 }
 
 std::optional<ActionReport> action_report(const RunOutcome& outcome, const VariationRequest& request)

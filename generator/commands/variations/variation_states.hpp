@@ -26,9 +26,9 @@ struct VariationRequest {
 ///   rho_a(L) s^a and p_a delta y^a of delta L, of delta^2 L, s^a = sum_k c_k^a sin(k pi (t - start)/(end - start)),
 ///   k = 1, 2, 3, with c random in [-1, 1];   action.K.squares: the integral of (end - start) times the squares of the
 ///   terms rho_a(L) s^a, p_a sdot^a, p_a C^a_bc y^b s^c of delta L;   sigma.NAME, delta.NAME of the Jacobi field.
-/// The text tells what was added. Throws MathematicsError where the motions are no critical points of an action.
-[[nodiscard]] std::string add_variation_states(Model& model, const System& system, Scene& scene,
-                                               const VariationRequest& request, const SampleTimes& times);
+/// Throws MathematicsError where the motions are no critical points of an action.
+void add_variation_states(Model& model, const System& system, Scene& scene, const VariationRequest& request,
+                          const SampleTimes& times);
 
 /// Reads the variations at the end of a run out of its last state.
 [[nodiscard]] std::optional<ActionReport> action_report(const RunOutcome& outcome, const VariationRequest& request);

@@ -44,13 +44,13 @@ double followed_step(const StabilityRequest& request, const M& model, double t, 
     return most;
 }
 
-/// The largest |arg lambda|/h; 0 where a step beside it has no arrow.
+/// Adds the derivative of a step in (x, mu), by differences; nothing where a step beside it has no arrow.
 template <class M>
-double fastest_turn(const M& model, double t, const typename M::State& s)
+void add_step(const M& model, double t, const typename M::State& s, LinearParts& linear)
 {
     using Lanes = detail::ArrowLanes<M>;
     constexpr int n = Lanes::n, size = n + Lanes::rank;
-    SquareMatrix slopes(size);
+    std::vector<double> columns;
     ArrowSolver<M> solver;
     for (int j = 0; j < size; ++j) {
         const int lane = j < n ? j : Lanes::momenta + j - n;
@@ -60,21 +60,20 @@ double fastest_turn(const M& model, double t, const typename M::State& s)
         for (const int side : {0, 1}) {
             typename M::State z = s;
             z[lane] += side == 0 ? away : -away;
-            if (solver.solve(model, t, z) != Status::ok) return 0;
+            if (solver.solve(model, t, z) != Status::ok) return;
             model.forward(t, z, x[side], mu[side]);
         }
-        for (int i = 0; i < n; ++i) slopes(i, j) = (x[0][i] - x[1][i]) / (2 * away);
-        for (int a = 0; a < Lanes::rank; ++a) slopes(n + a, j) = (mu[0][a] - mu[1][a]) / (2 * away);
+        for (int i = 0; i < n; ++i) columns.push_back((x[0][i] - x[1][i]) / (2 * away));
+        for (int a = 0; a < Lanes::rank; ++a) columns.push_back((mu[0][a] - mu[1][a]) / (2 * away));
     }
-    double largest = 0;
-    for (const std::complex<double>& value : eigenvalues(slopes))
-        largest = std::max(largest, std::abs(std::arg(value)));
-    return largest / model.step();
+    linear.lanes = static_cast<std::size_t>(size);
+    linear.step = model.step();
+    linear.entries.insert(linear.entries.end(), columns.begin(), columns.end());
 }
 
 /// Of the column that begins with cell `first`.
 template <class M>
-ColumnFigures figures_along(const DiscreteRequest<M>& request, std::size_t first)
+void look_along(const DiscreteRequest<M>& request, std::size_t first, StabilityAnswer& found)
 {
     std::size_t shortest = first;
     for (std::size_t i = first; i < first + request.steps(); ++i)
@@ -84,7 +83,7 @@ ColumnFigures figures_along(const DiscreteRequest<M>& request, std::size_t first
     const double step = std::max(short_step * column.model.step(), length / double(most_reference_steps));
     column.model.parameter(request.common.step) = step;
     Integrator run(column.model, column.start, request.common.start, Discrete{});
-    double largest = 0;
+    double largest = 0, scale = 0;
     for (int k = 0; run.status() == Status::ok && run.t() + step <= request.common.end; ++k) {
         const double f = followed_step(request.common, column.model, run.t(), run.state());
         typename M::State unit = run.state();
@@ -92,13 +91,14 @@ ColumnFigures figures_along(const DiscreteRequest<M>& request, std::size_t first
         for (int lane = Lanes::next; lane < Lanes::momenta; ++lane) unit[lane] = 0;
         unit = at_arrow(column.model, run.t(), unit);
         const double difference = std::abs(f - followed_step(request.common, column.model, run.t(), unit));
-        if (std::isfinite(difference)) column.scale = std::max(column.scale, difference);
+        if (std::isfinite(difference)) scale = std::max(scale, difference);
         largest = std::max(largest, std::abs(f));
-        if (k < most_turns) column.omega = std::max(column.omega, fastest_turn(column.model, run.t(), run.state()));
+        if (k < most_turns) add_step(column.model, run.t(), run.state(), column.linear);
         if (run.step() != Status::ok) break;
     }
-    if (request.common.follow == Follow::size || !(column.scale > 0)) column.scale = largest > 0 ? largest : 1;
-    return {column.omega, column.scale, run.t()};
+    if (request.common.follow == Follow::size || !(scale > 0)) scale = largest > 0 ? largest : 1;
+    found.columns.push_back({0, scale, run.t()});
+    found.linear.push_back(std::move(column.linear));
 }
 
 template <class M>
@@ -163,8 +163,7 @@ int chart_discrete_stability(const char* name, int argc, char** argv)
         return 4;
     const std::size_t steps = request.steps(), columns = request.cells.size() / steps;
     found.columns = request.common.figures;
-    for (std::size_t j = found.columns.size(); j < columns; ++j)
-        found.columns.push_back(chart::figures_along(request, j * steps));
+    for (std::size_t j = found.columns.size(); j < columns; ++j) chart::look_along(request, j * steps, found);
     chart::MethodFates fates{name, {}, {}};
     for (std::size_t k = 0; k < columns * steps; ++k)
         fates.cells.push_back(chart::discrete_fate(request, request.cells[k], found.columns[k / steps].scale));

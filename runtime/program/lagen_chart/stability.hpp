@@ -8,8 +8,9 @@
 /// Its argument is the file of a StabilityRequest; it answers a StabilityAnswer (stability_request.hpp).
 ///
 /// A column is looked at along its motion by Dop853 with tolerance 1e-9 first, up to the time `reached`: omega is the
-/// largest imaginary part of an eigenvalue of the Jacobian along it; scale the largest |f(x, y) - f(x, 0)|, which is
-/// the kinetic energy where f is the energy, or |f| where that is 0. Of a run with f_0 at its start
+/// largest imaginary part of an eigenvalue of the Jacobian along it, of the first 4000 steps; scale the largest |f(x,
+/// y) - f(x, 0)|, which is the kinetic energy where f is the energy, or |f| where that is 0. Of a run with f_0 at its
+/// start
 ///   error is the largest |f - f_0| / scale,
 ///   drift how far the least and the largest f of the last third of the steps, the one that moved more, are from those
 ///   of the first third, over scale and the time between the two.
@@ -18,7 +19,6 @@
 #include "lagen/integrate.hpp"
 #include "lagen_chart/answer.hpp"
 #include "lagen_chart/fate.hpp"
-#include "lagen_chart/spectrum.hpp"
 
 #include <array>
 #include <cstdio>
@@ -36,7 +36,8 @@ template <class M>
 struct StabilityColumn {
     M model;
     typename M::State start;
-    double omega = 0, scale = 0, reached = 0;
+    ColumnFigures figures{};
+    LinearParts linear{};
 };
 
 /// The quantity that is followed.
@@ -66,24 +67,21 @@ bool fill_columns(const StabilityRequest& request, std::vector<StabilityColumn<M
     return true;
 }
 
-/// Largest imaginary part of an eigenvalue of the Jacobian; 0 where there is none.
+/// Adds the Jacobian there, where the model has one.
 template <class M>
-double fastest_oscillation(const M& model, double t, const typename M::State& s)
+void add_jacobian(const M& model, double t, const typename M::State& s, LinearParts& linear)
 {
     if constexpr (HasJacobian<M>) {
         std::array<double, M::jacobian_rows.size()> values{};
         model.jacobian_values(t, s, values);
-        SquareMatrix jacobian(M::dimension);
+        linear.lanes = static_cast<std::size_t>(M::dimension);
+        double* const matrix = &*linear.entries.insert(linear.entries.end(), linear.lanes * linear.lanes, 0.0);
         for (std::size_t k = 0; k < values.size(); ++k)
-            jacobian(M::jacobian_rows[k], M::jacobian_columns[k]) = values[k];
-        double largest = 0;
-        for (const std::complex<double>& value : eigenvalues(jacobian)) largest = std::max(largest, value.imag());
-        return largest;
+            matrix[M::jacobian_rows[k] * M::dimension + M::jacobian_columns[k]] = values[k];
     }
-    return 0;
 }
 
-/// What a column's scale and frequency are, along its motion.
+/// What a column's scale and linear equations are, along its motion.
 template <class M>
 struct ColumnObserver {
     const StabilityRequest& request;
@@ -98,9 +96,9 @@ struct ColumnObserver {
         at_rest.tail(M::dimension - M::base_dimension).setZero();
         const double f = followed(request, column.model, t, s);
         const double difference = std::abs(f - followed(request, column.model, t, at_rest));
-        if (difference > column.scale && std::isfinite(difference)) column.scale = difference;
+        if (difference > column.figures.scale && std::isfinite(difference)) column.figures.scale = difference;
         largest = std::max(largest, std::abs(f));
-        if (++seen <= most_spectra) column.omega = std::max(column.omega, fastest_oscillation(column.model, t, s));
+        if (++seen <= most_spectra) add_jacobian(column.model, t, s, column.linear);
     }
 };
 
@@ -110,9 +108,10 @@ void look_at(const StabilityRequest& request, StabilityColumn<M>& column)
     ColumnObserver<M> observer{request, column};
     const auto run = integrate(column.model, column.start, {request.start, request.end}, Dop853{.tolerance = 1e-9},
                                {.max_steps = most_reference_steps}, observer);
-    column.reached = run.t;
-    if (request.follow == Follow::size || !(column.scale > 0)) column.scale = observer.largest;
-    if (!(column.scale > 0)) column.scale = 1;
+    ColumnFigures& figures = column.figures;
+    figures.reached = run.t;
+    if (request.follow == Follow::size || !(figures.scale > 0)) figures.scale = observer.largest;
+    if (!(figures.scale > 0)) figures.scale = 1;
 }
 
 template <class M, class Method>
@@ -122,7 +121,7 @@ StabilityCell fate_of(const StabilityRequest& request, const StabilityColumn<M>&
     const double length = request.end - request.start;
     const bool conserved = request.follow != Follow::size;
     const double from = conserved ? followed(request, column.model, request.start, column.start) : 0;
-    FateWatch watch(from, column.scale, length, conserved);
+    FateWatch watch(from, column.figures.scale, length, conserved);
     while (integrator.t() != request.end) {
         const Status status = integrator.step_towards(request.end);
         if (status != Status::ok) {
@@ -156,7 +155,8 @@ int chart_stability(const std::array<std::string_view, sizeof...(Methods)>& name
     chart::StabilityAnswer found;
     for (chart::StabilityColumn<M>& column : columns) {
         chart::look_at(request, column);
-        found.columns.push_back({column.omega, column.scale, column.reached});
+        found.columns.push_back(column.figures);
+        found.linear.push_back(std::move(column.linear));
     }
     [[maybe_unused]] std::size_t k = 0;
     (found.methods.push_back(chart::fates_of<M, Methods>(request, columns, names[k++])), ...);

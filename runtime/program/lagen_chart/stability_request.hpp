@@ -21,7 +21,7 @@ struct ColumnStart {
 };
 
 /// Along the motion of a column, as far as the scene goes; stability.hpp and discrete_stability.hpp say how they are
-/// found.
+/// found. A program leaves omega to who asks it, and answers the linear equations whose eigenvalues it is of.
 struct ColumnFigures {
     double omega = 0, scale = 0, reached = 0;
 
@@ -64,11 +64,21 @@ struct MethodFates {
     static void each(auto& self, auto& archive) { archive(self.name, self.cells, self.folds); }
 };
 
+/// The linear equations along the motion of a column, of discrete motions of length `step`: matrices one after another.
+struct LinearParts {
+    std::size_t lanes = 0;
+    double step = 0;
+    std::vector<double> entries;
+
+    static void each(auto& self, auto& archive) { archive(self.lanes, self.step, self.entries); }
+};
+
 struct StabilityAnswer {
     std::vector<ColumnFigures> columns;
+    std::vector<LinearParts> linear; ///< of each column; none where the figures were given
     std::vector<MethodFates> methods;
 
-    static void each(auto& self, auto& archive) { archive(self.columns, self.methods); }
+    static void each(auto& self, auto& archive) { archive(self.columns, self.linear, self.methods); }
 };
 
 } // namespace lagen::chart

@@ -75,8 +75,10 @@ class Figures {
             if (k + constraints_ < watched_ || k >= watched_) reference_[k] += after[k] - before[k];
     }
 
+    /// Nothing of a run that did not begin.
     void report(const M& model, RunReport& report) const
     {
+        if (!begun_) return;
         std::size_t k = 0;
         const auto next = [&](const char* name) -> Drift {
             const Slope slope = means_.slope(k);
@@ -93,8 +95,7 @@ class Figures {
         for (const char* name : invariants_of(model)) report.invariants.push_back(next(name));
         for (const char* name : constraints_of(model)) report.constraints.push_back(next(name));
         for (const char* name : casimirs_of(model)) report.casimirs.push_back(next(name));
-        if (constraints_ > 0 && begun_) // else there is no state
-            report.manifold = distance_from_manifold(model), report.manifold_t = off_t_;
+        if (constraints_ > 0) report.manifold = distance_from_manifold(model), report.manifold_t = off_t_;
     }
 
   private:

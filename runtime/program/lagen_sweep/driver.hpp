@@ -3,7 +3,7 @@
 /// whole generated main is
 ///   #include "model.hpp"
 ///   #include "lagen_sweep/driver.hpp"
-///   int main() { return lagen::sweep<lagen::models::NAME<double>, lagen::METHOD>(); }
+///   int main(int argc, char** argv) { return lagen::sweep<lagen::models::NAME<double>, lagen::METHOD>(argc, argv); }
 ///
 /// Standard input holds a SweepJob (lagen_run/archive.hpp) behind its size, then native doubles, for each trajectory
 ///   failure, parameters.., state lanes.., start, end, step, relative, absolute, interval, times..
@@ -245,9 +245,9 @@ class Sweep {
 
 } // namespace detail
 
-/// The whole program; see the top of the file. Returns the exit code.
+/// The whole program; see the top of the file. It takes no arguments. Returns the exit code.
 template <class M, class Method>
-int sweep()
+int sweep(int, char**)
 try {
     static_assert(std::is_same_v<typename M::Scalar, double>, "lagen sweep integrates in double");
     detail::SweepJob job;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "commands/scene/range.hpp"
+#include "commands/line/values.hpp"
 
-#include "commands/scene/scene_options.hpp"
 #include "emit/print_literal.hpp"
+#include "expression/parse.hpp"
 #include "graph/core/evaluate.hpp"
 #include "graph/core/lower.hpp"
 
@@ -13,6 +13,34 @@
 #include <cmath>
 
 namespace lagen {
+
+namespace {
+
+void require_parameters(const Model& model, const std::string& name, const Excerpt& text,
+                        const std::vector<Tree>& trees)
+{
+    for (const Tree& tree : trees)
+        for (const std::string& used : names_in(tree))
+            if (std::ranges::none_of(model.parameters, [&](const Parameter& each) { return each.symbol.name == used; }))
+                throw ModelError(fmt::format("--{} depends on '{}', which is no parameter", name, used),
+                                 text.range(0, text.text.size()), "give numbers, or expressions of parameters");
+}
+
+} // namespace
+
+ArrayValue option_array(const Model& model, const std::string& name, const Excerpt& text)
+{
+    ArrayValue value = model.scope.close_array(parse_expression(text));
+    require_parameters(model, name, text, value.entries);
+    return value;
+}
+
+Tree option_tree(const Model& model, const std::string& name, const Excerpt& text)
+{
+    const Tree tree = model.scope.close(parse_expression(text));
+    require_parameters(model, name, text, {tree});
+    return tree;
+}
 
 double GridAxis::at(std::uint64_t place) const
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Ranges FIRST:LAST:COUNT of the command line. Grids are exact: point k of n between a and b is the double nearest to
-/// a + (b - a) k/(n - 1).
+/// Values that options give: expressions of a model's parameters, whole numbers, ranges FIRST:LAST:COUNT. Grids are
+/// exact: point k of n between a and b is the double nearest to a + (b - a) k/(n - 1).
 #pragma once
 
 #include "commands/line/options.hpp"
@@ -12,6 +12,11 @@
 #include <vector>
 
 namespace lagen {
+
+/// What is given to --NAME, closed over parameters; ModelError where it depends on anything else.
+[[nodiscard]] Tree option_tree(const Model& model, const std::string& name, const Excerpt& text);
+/// The same of a number, a vector or a matrix.
+[[nodiscard]] ArrayValue option_array(const Model& model, const std::string& name, const Excerpt& text);
 
 struct GridAxis {
     Rational first, last;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "commands/scene/stability_table.hpp"
-
+/// `lagen methods`: the integrators, and how long their steps may be.
 #include "commands/scene/methods.hpp"
+#include "commands/line/command.hpp"
+#include "commands/line/options.hpp"
+#include "commands/machine/write_file.hpp"
 #include "emit/json.hpp"
 #include "stability/scheme_limits.hpp"
 
@@ -14,6 +16,27 @@
 namespace lagen {
 
 namespace {
+
+const CommandSyntax methods_syntax{
+    "methods",
+    "",
+    "Lists the integrators.",
+    {{"stability", nullptr,
+      "how long their steps may be on linear equations: intervals of the imaginary and real axes"},
+     {"format,f", "FORMAT", "text or json", "text"}}};
+
+void method_json(JsonWriter& json, const MethodEntry& entry)
+{
+    json.begin_object()
+        .key("name")
+        .value(entry.name)
+        .key("order")
+        .value(entry.order)
+        .key("adaptive")
+        .value(entry.adaptive);
+    json.key("separable_only").value(entry.kind == MethodKind::splitting).key("text").value(entry.text);
+    json.key("keeps").value(entry.keeps).key("system").value(system_of(entry)).end_object();
+}
 
 struct StabilityRow {
     std::string name, order;
@@ -56,8 +79,6 @@ void limit_json(JsonWriter& json, const char* key, const std::optional<double>& 
         json.value(*limit);
 }
 
-} // namespace
-
 std::string stability_table_text()
 {
     std::string text =
@@ -92,6 +113,36 @@ std::string stability_table_json()
     }
     json.end_array();
     return json.text() + "\n";
+}
+
+} // namespace
+
+ExitCode run_methods(Arguments arguments)
+{
+    const Options options(methods_syntax, arguments);
+    if (options.help()) return ExitCode::done;
+    const bool as_json = options.choice("format", {"text", "json"}) == "json";
+    if (options.has("stability")) {
+        write_standard_output(as_json ? stability_table_json() : stability_table_text());
+        return ExitCode::done;
+    }
+    if (as_json) {
+        JsonWriter json;
+        json.begin_array();
+        for (const MethodEntry& entry : method_table()) method_json(json, entry);
+        json.end_array();
+        write_standard_output(json.text() + "\n");
+        return ExitCode::done;
+    }
+    std::string text;
+    for (const MethodEntry& entry : method_table()) {
+        const std::string keeps = entry.keeps, system = system_of(entry);
+        text += fmt::format("{:<17}order {:<8}{:<10}{}{}{}\n", entry.name, entry.order,
+                            entry.adaptive ? "tolerance" : "step", entry.text, keeps.empty() ? "" : ", " + keeps,
+                            system.empty() ? "" : fmt::format(" (for {} only)", system));
+    }
+    write_standard_output(text);
+    return ExitCode::done;
 }
 
 } // namespace lagen

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "commands/scene/exact_start.hpp"
+#include "commands/exact_start.hpp"
 
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/evaluate.hpp"
