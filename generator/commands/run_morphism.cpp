@@ -11,11 +11,13 @@
 #include "commands/scene/scene_options.hpp"
 #include "elaborate/elaborate_morphism.hpp"
 #include "elaborate/make_frame.hpp"
+#include "model/plain_names.hpp"
 #include "model/scene_form.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace lagen {
 
@@ -120,9 +122,11 @@ std::string report_of_source(const RunOutcome& source)
     return fmt::format("{{\"source\": {},\n \"target\": null,\n \"defect\": null}}\n", object_json(source));
 }
 
-void tell(const Options& options, const RunOutcome& source, const RunOutcome& target, const RunComparison& comparison)
+/// `known`: the names of both models.
+void tell(const Options& options, const RunOutcome& source, const RunOutcome& target, const RunComparison& comparison,
+          const std::vector<std::string>& known)
 {
-    const std::string csv = to_csv(comparison.table, {});
+    const std::string csv = to_csv(comparison.table, known);
     const std::string report = report_of(options, source, target, comparison);
     if (options.has("output"))
         write_file(options.get("output"), options.get("output").ends_with(".json") ? report : csv);
@@ -182,6 +186,8 @@ ExitCode run_morphism(const Options& options, const std::shared_ptr<const Source
 
     CheckedModel from = as_read(source_of(morphism), options, options.settings());
     CheckedModel to = as_read(target_of(morphism), options, {});
+    std::vector<std::string> known = all_names(from.model);
+    std::ranges::copy(all_names(to.model), std::back_inserter(known));
     SystemMorphism map = elaborate_whole(morphism);
     Scene scene = scene_of(options, from.model, options.named("initial"));
     require_form_of_target(scene.form, to.model, map);
@@ -196,7 +202,7 @@ ExitCode run_morphism(const Options& options, const std::shared_ptr<const Source
     const InterruptsHeld held; // between programs, which they reach: rows are written first
     const WholeRun here = run_of(source, asked);
     if (is_interrupted(here.outcome))
-        return leave_rows(options, here.outcome.table, {}, report_of_source(here.outcome), here.outcome.t);
+        return leave_rows(options, here.outcome.table, known, report_of_source(here.outcome), here.outcome.t);
     if (here.whole.count() == 0) return tell_alone(options, here.outcome);
 
     LiftedTarget lifted;
@@ -213,9 +219,9 @@ ExitCode run_morphism(const Options& options, const std::shared_ptr<const Source
 
     const RunComparison comparison = compare(projection, here.whole, there.whole);
     if (is_interrupted(there.outcome))
-        return leave_rows(options, comparison.table, {}, report_of(options, here.outcome, there.outcome, comparison),
+        return leave_rows(options, comparison.table, known, report_of(options, here.outcome, there.outcome, comparison),
                           there.outcome.t);
-    tell(options, here.outcome, there.outcome, comparison);
+    tell(options, here.outcome, there.outcome, comparison, known);
     const bool done = succeeded(here.outcome.status) && succeeded(there.outcome.status);
     return done ? ExitCode::done : ExitCode::refuted;
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "methods/integrate_compiled.hpp"
 
-#include "diagnostic.hpp"
 #include "lagen_run/driver.hpp"
 #include "methods/method_list.hpp"
 
+#include <stdexcept>
 #include <utility>
 
 namespace lagen {
@@ -38,7 +38,7 @@ std::string integrate_compiled(const std::string& path, const std::string& type,
         detail::RunPlan<CompiledModel> plan;
         plan.model = std::move(loaded.model);
         if constexpr (requires { method.lanes; }) method.lanes = plan.model.lanes();
-        if (!detail::make_plan(job, plan, method)) throw InternalError("the job is that of another model");
+        if (!detail::make_plan(job, plan, method)) throw std::invalid_argument("the job is that of another model");
         report = detail::run_plan(plan, method, job, rows, signal);
     };
     std::visit(run, find(type)->method);

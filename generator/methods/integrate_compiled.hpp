@@ -25,8 +25,8 @@ struct KernelsAsked {
 
 /// The run that the job asks for, over the compiled model of this path, with a method that integrates_compiled finds.
 /// The rows go to `rows`, one after another; a signal that is not zero ends the run. Answers why the model could
-/// not be loaded, or nothing; InternalError where the job is that of another model. (Names of the runtime stay out of
-/// here: some are those of other things in the rooms around.)
+/// not be loaded, or nothing; std::invalid_argument where the job is that of another model. (Names of the runtime stay
+/// out of here: some are those of other things in the rooms around.)
 [[nodiscard]] std::string integrate_compiled(const std::string& path, const std::string& type,
                                              const detail::RunJob& job, const detail::RowTaker& rows,
                                              const volatile std::sig_atomic_t* signal, detail::RunReport& report);
