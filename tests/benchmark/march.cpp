@@ -165,17 +165,22 @@ struct Taylor {
 #endif
 }
 
+/// Of the right-hand side, or of the series of a method that has a call of its own.
+template <class Method>
+void call(const Model& model, const State& s, State& ds)
+{
+    if constexpr (requires { Method::call(model, s); }) {
+        Method::call(model, s);
+    } else {
+        (void)model.rhs(0, s, ds);
+        asm volatile("" : : "g"(&s), "g"(&ds) : "memory");
+    }
+}
+
 [[gnu::noinline]] void marched_calls(const Model& model, State& s, long n)
 {
     State ds;
-    for (long k = 0; k < n; ++k) {
-        if constexpr (requires { METHOD::call(model, s); }) {
-            METHOD::call(model, s);
-        } else {
-            (void)model.rhs(0, s, ds);
-            asm volatile("" : : "g"(&s), "g"(&ds) : "memory");
-        }
-    }
+    for (long k = 0; k < n; ++k) call<METHOD>(model, s, ds);
 }
 
 } // namespace
