@@ -27,7 +27,8 @@ struct Surroundings {
     bool output_closed = false;
     bool error_closed = false;
     long largest_file = 0; ///< bytes; 0: no limit
-    std::string program{}; ///< instead of lagen
+    std::string program{};  ///< instead of lagen
+    bool long_runs = false; ///< what is compiled computes for longer than it is compiled
 };
 
 /// Runs lagen. Programs that it compiles are shared by the whole test program.
