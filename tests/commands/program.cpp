@@ -64,7 +64,8 @@ CompilerChoice compiler_for(const std::vector<std::string>& arguments, const Sur
 {
     const std::string command = arguments.empty() ? "" : arguments[0];
     const auto asks = [&](const char* option) { return std::ranges::find(arguments, option) != arguments.end(); };
-    const bool measures = (command == "chart" && !asks("--stability")) || asks("--accuracy"), sweeps = command == "sweep";
+    const bool measures = (command == "chart" && !asks("--stability")) || asks("--accuracy"),
+               sweeps = command == "sweep";
     CompilerChoice choice{"clang++", sweeps || around.long_runs ? "-O1" : "-O0"};
     if (measures) choice = {"c++", "-Og"};
     if (measures) headers().read_for_charts(choice);

@@ -26,7 +26,7 @@ struct Surroundings {
     std::string output{};                                           ///< standard output goes there instead
     bool output_closed = false;
     bool error_closed = false;
-    long largest_file = 0; ///< bytes; 0: no limit
+    long largest_file = 0;  ///< bytes; 0: no limit
     std::string program{};  ///< instead of lagen
     bool long_runs = false; ///< what is compiled computes for longer than it is compiled
 };

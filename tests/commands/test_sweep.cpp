@@ -58,7 +58,7 @@ void check_against_run(const CsvTable& sweep, std::size_t row, std::vector<std::
 /// Rows of many bodies, first and last, where runs and the sweep are compiled with these CXXFLAGS.
 void check_rows_compiled_with(const std::string& flags)
 {
-    const Surroundings around{.environment = {{"CXXFLAGS", flags}}};
+    const Surroundings around{.environment = {{"CXXFLAGS", flags}, {"CXX", ""}}};
     const std::string file = fresh_folder() + "/a.csv";
     const std::vector<std::string> model{"outer_solar_system.toml", "--method", "taylor"};
     std::vector<std::string> arguments{"sweep"};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Programs that lagen compiles while it is tested: nothing of them is timed, and what they include is read once for
-/// all. clang takes half of the time of g++, and is the compiler of all but charts, which are measured by numbers of 113
-/// bits that it does not make.
+/// all. clang takes half of the time of g++, and is the compiler of all but charts, which are measured by numbers of
+/// 113 bits that it does not make.
 #pragma once
 
 #include "support/golden.hpp"
