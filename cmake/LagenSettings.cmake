@@ -14,6 +14,7 @@
 #   lagen_fuzz_target(NAME LIBRARIES libs... SOURCES files... CORPUS places... LONGEST bytes RUNS n ALL n
 #     SECONDS n n)       one of tests/fuzz: with sanitizers, of RUNS inputs and for scripts/test --all of ALL
 #   lagen_timed_test(NAME SECONDS command...)             a test that fails where it takes five times as long
+#   lagen_starts(TEST PROGRAM)                            PROGRAM is built before TEST
 
 add_library(lagen_settings INTERFACE)
 target_compile_options(lagen_settings INTERFACE -Wall -Wextra -Wpedantic -Wconversion
@@ -128,7 +129,6 @@ endfunction()
 function(lagen_test_room name)
   cmake_parse_arguments(PARSE_ARGV 1 ROOM "SEPARATE;TEMPLATES;UNSANITIZED;PARSES" "" "LIBRARIES;APART;LATER;SECONDS;SANITIZED")
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
-  list(FILTER sources EXCLUDE REGEX "/readme_1\\.cpp$") # a program that a test compiles
   # Unoptimised templates take an hour for these with sanitizers.
   if(ROOM_LATER AND (NOT LAGEN_ALL_TESTS OR (ROOM_TEMPLATES AND LAGEN_SANITIZE)))
     list(TRANSFORM ROOM_LATER REPLACE "(.+)" "${CMAKE_CURRENT_SOURCE_DIR}/${name}/\\1.cpp")
@@ -174,6 +174,13 @@ function(lagen_test_room name)
       lagen_timed_test(${name}_${tag} ${seconds} $<TARGET_FILE:test_${name}> ${filter})
     endif()
   endforeach()
+endfunction()
+
+# A test starts a program, which must be there where anything is linked.
+function(lagen_starts test program)
+  if(NOT LAGEN_READS)
+    add_dependencies(${test} ${program})
+  endif()
 endfunction()
 
 # A part of lagen_fuzz_target. What is new is written to the first folder named, which must not be the corpus. Weights by

@@ -12,11 +12,13 @@ using Complex = Eigen::MatrixXcd;
 constexpr double rank_tolerance = 1e-9;
 constexpr double least_threshold = 1e-11; ///< of a pivot that is 0, relative to the largest
 
-/// Whether the rank of M is the smaller of its dimensions.
+/// Whether the rank of M is the smaller of its dimensions. Written with real numbers it has each singular value twice.
 bool has_full_rank(const Complex& M)
 {
     if (M.size() == 0) return true;
-    const Eigen::VectorXd values = Eigen::JacobiSVD<Complex>(M).singularValues();
+    Matrix twice(2 * M.rows(), 2 * M.cols());
+    twice << M.real(), -M.imag(), M.imag(), M.real();
+    const Eigen::VectorXd values = Eigen::JacobiSVD<Matrix>(twice).singularValues();
     return values.minCoeff() > rank_tolerance * values.maxCoeff();
 }
 

@@ -58,14 +58,20 @@ const PrecompiledHeaders& headers()
     return read;
 }
 
-/// What a call will compile, if it compiles.
-void precompile_for(const std::vector<std::string>& arguments)
+/// For a call; the compiler finds read what the call will compile, if it compiles. Of a run the compiler takes longer
+/// than the program, of many it does not.
+CompilerChoice compiler_for(const std::vector<std::string>& arguments, const Surroundings& around)
 {
     const std::string command = arguments.empty() ? "" : arguments[0];
-    const bool accurate = std::find(arguments.begin(), arguments.end(), "--accuracy") != arguments.end();
-    const bool stability = std::find(arguments.begin(), arguments.end(), "--stability") != arguments.end();
-    if (command == "run" || command == "sweep" || (command == "chart" && stability)) headers().read_for_runs();
-    if ((command == "chart" && !stability) || accurate) headers().read_for_charts();
+    const auto asks = [&](const char* option) { return std::ranges::find(arguments, option) != arguments.end(); };
+    const bool measures = (command == "chart" && !asks("--stability")) || asks("--accuracy"),
+               sweeps = command == "sweep";
+    CompilerChoice choice{"clang++", sweeps || around.long_runs ? "-O1" : "-O0"};
+    if (measures) choice = {"c++", "-Og"};
+    if (measures) headers().read_for_charts(choice);
+    if (sweeps || command == "run" || (command == "chart" && !measures)) headers().read_for_runs(choice);
+    if (command == "run") headers().read_for_models(choice);
+    return choice;
 }
 
 void redirect(int stream, const std::string& path)
@@ -75,22 +81,23 @@ void redirect(int stream, const std::string& path)
     ::close(file);
 }
 
-void set_environment(const Surroundings& around)
+void set_environment(const CompilerChoice& choice, const Surroundings& around)
 {
     ::setenv("LAGEN_CACHE", root().file("cache").c_str(), 1);
     ::setenv("TMPDIR", root().file("tmp").c_str(), 1);
     ::setenv("HOME", root().file("home").c_str(), 1);
-    ::setenv("CXXFLAGS", headers().flags().c_str(), 1);
-    for (const char* name : {"CXX", "XDG_CACHE_HOME", "LAGEN_INCLUDE", "LAGEN_MODELS", "LAGEN_EIGEN_INCLUDE"})
+    ::setenv("CXXFLAGS", headers().flags(choice).c_str(), 1);
+    ::setenv("CXX", choice.compiler.c_str(), 1);
+    for (const char* name : {"XDG_CACHE_HOME", "LAGEN_INCLUDE", "LAGEN_MODELS", "LAGEN_EIGEN_INCLUDE"})
         ::unsetenv(name);
     for (const auto& [name, value] : around.environment)
         value.empty() ? ::unsetenv(name.c_str()) : ::setenv(name.c_str(), value.c_str(), 1);
 }
 
-[[noreturn]] void become_lagen(const std::vector<std::string>& arguments, const Surroundings& around,
-                               const Started& started)
+[[noreturn]] void become_lagen(const std::vector<std::string>& arguments, const CompilerChoice& choice,
+                               const Surroundings& around, const Started& started)
 {
-    set_environment(around);
+    set_environment(choice, around);
     redirect(STDOUT_FILENO, around.output.empty() ? started.out : around.output);
     redirect(STDERR_FILENO, started.err);
     if (around.output_closed) ::close(STDOUT_FILENO);
@@ -112,10 +119,10 @@ void set_environment(const Surroundings& around)
 Started start_call(const std::vector<std::string>& arguments, const Surroundings& around)
 {
     (void)models_folder();
-    precompile_for(arguments);
+    const CompilerChoice choice = compiler_for(arguments, around);
     Started started{0, root().next("out"), root().next("err")};
     started.process = ::fork();
-    if (started.process == 0) become_lagen(arguments, around, started);
+    if (started.process == 0) become_lagen(arguments, choice, around, started);
     return started;
 }
 

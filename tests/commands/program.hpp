@@ -26,8 +26,9 @@ struct Surroundings {
     std::string output{};                                           ///< standard output goes there instead
     bool output_closed = false;
     bool error_closed = false;
-    long largest_file = 0; ///< bytes; 0: no limit
-    std::string program{}; ///< instead of lagen
+    long largest_file = 0;  ///< bytes; 0: no limit
+    std::string program{};  ///< instead of lagen
+    bool long_runs = false; ///< what is compiled computes for longer than it is compiled
 };
 
 /// Runs lagen. Programs that it compiles are shared by the whole test program.

@@ -141,7 +141,7 @@ TEST_CASE("without a compiler the run says which was looked for")
     CHECK(named.out.empty());
     CHECK(named.err == "error: the C++ compiler '/nonexistent' (from CXX) was not found\n"
                        "hint: `run` compiles the generated header; unset CXX or name a C++20 compiler\n");
-    const Outcome none = call(short_run, {.environment = {{"PATH", "/nonexistent"}}});
+    const Outcome none = call(short_run, {.environment = {{"PATH", "/nonexistent"}, {"CXX", ""}}});
     CHECK(none.code == 5);
     CHECK(none.err == "error: no C++ compiler was found (tried c++, g++, clang++)\n"
                       "hint: `run` compiles the generated header; install g++ or set CXX\n");

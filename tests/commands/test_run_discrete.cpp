@@ -58,11 +58,13 @@ std::string scene_text(const ReferenceArrow& first, const std::string& step, std
     return text;
 }
 
-json::Value steps_of(std::vector<std::string> arguments, int code = 0)
+const Surroundings long_runs{.long_runs = true};
+
+json::Value steps_of(std::vector<std::string> arguments, int code = 0, const Surroundings& around = {})
 {
     arguments.insert(arguments.begin(), "run");
     arguments.insert(arguments.end(), {"--format", "json"});
-    const Outcome outcome = call(arguments);
+    const Outcome outcome = call(arguments, around);
     INFO(outcome.err);
     REQUIRE(outcome.code == code);
     return json::parse(outcome.out);
@@ -235,13 +237,13 @@ TEST_CASE("--branch takes another arrow with the momenta of the start, and the r
 TEST_CASE("a discrete run that does not go on tells of other branches", "[run]")
 {
     const std::string model = written("body", free_body_from("p_w1 = 0.1, p_w2 = 22.9, p_w3 = 1"));
-    const Outcome lost = call({"run", model, "--branch", "3", "--step", "0.1"});
+    const Outcome lost = call({"run", model, "--branch", "3", "--step", "0.1"}, long_runs);
     CHECK(lost.code == 1);
     CHECK_THAT(lost.err, Catch::Contains("\n  no arrow on this branch has these momenta: ") &&
                              Catch::Contains("\n  4 arrows on other branches are found, at the distances ") &&
                              Catch::Contains(" from the arrow before\n  from the start 4 branches are found: `--branch "
                                              "1` to `--branch 4`\n"));
-    const json::Value found = steps_of({model, "--branch", "3"}, 1);
+    const json::Value found = steps_of({model, "--branch", "3"}, 1, long_runs);
     CHECK(found["other_branches"].size() == 4);
 }
 
@@ -291,7 +293,7 @@ TEST_CASE("a million discrete steps of the heavy top stay on their group, and ke
     std::string text = each.model + scene_text(first, "0.1", 1'000'000);
     text += "sample = 10000\nobserve = [\"state\", \"norm(G) - 1\", \"p_w3\", \"p_w1*G[1] + p_w2*G[2] + p_w3*G[3]\", "
             "\"sqrt(trace((transpose(W)*W - identity(3))*(transpose(W)*W - identity(3))))\", \"energy\"]\n";
-    const json::Value found = steps_of({written("top", text)});
+    const json::Value found = steps_of({written("top", text), "--no-second-run"}, 0, long_runs);
     REQUIRE(found["rows"].size() == 11);
     const std::size_t columns = found["columns"].size();
     const auto at = [&](std::size_t row, std::size_t behind) {

@@ -153,7 +153,7 @@ TEST_CASE("a state that overflows ends with non_finite, and JSON has null for wh
     CHECK(value["invariants"]["energy"]["initial"].text == "null");
 }
 
-TEST_CASE("more steps than the bound end with too_many_steps", "[run]")
+TEST_CASE("more steps than the bound end with too_many_steps", "[all]")
 {
     const json::Value value = fails("many", {"--at", "0"});
     CHECK(value["status"].text == "too_many_steps");

@@ -12,13 +12,8 @@ namespace {
 void make_object(const std::string& folder, const std::string& name, const std::string& source)
 {
     std::ofstream(folder + name + ".cpp") << source;
-    const Shell made = run_shell(
-        "c++ -std=c++20 -O1 -ffp-contract=off -fPIC -shared -fvisibility=hidden "
-        "-Wall -Wextra -Wpedantic -Wconversion -Werror -I'" LAGEN_SOURCE_DIR "/runtime/include' -I'" LAGEN_SOURCE_DIR
-        "/tests' -DEIGEN_MAX_ALIGN_BYTES=16 $(pkg-config --cflags eigen3 | sed s/-I/-isystem/) '" +
-        folder + name + ".cpp' -o '" + folder + name + ".so'");
-    INFO(made.output);
-    REQUIRE(made.status == 0);
+    compile("-fPIC -shared -fvisibility=hidden -DEIGEN_MAX_ALIGN_BYTES=16", {.first = "lagen/export_model.hpp"},
+            folder + name + ".cpp", folder, folder + name + ".so");
 }
 
 /// Bytes of the same object, but for some.
@@ -57,22 +52,23 @@ TEST_CASE("a compiled model has the bits of its header, takes no memory in a ste
     copy_changed(object, folder + "cut.so", 3000, 3000, 0);
     copy_changed(object, folder + "other_machine.so", std::string::npos, 18, 0x28); // 32-bit ARM
 
-    CHECK(run_on_headers("compiled_model", {"models/heavy_top.toml"}) == "load missing.so not_found\n"
-                                                                         "load text.so not_a_model\n"
-                                                                         "load cut.so not_a_model\n"
-                                                                         "load other_machine.so other_machine\n"
-                                                                         "load other_version.so other_version\n"
-                                                                         "load heavy_top.so ok\n"
-                                                                         "model heavy_top 6 w1 I1\n"
-                                                                         "bits euler same\n"
-                                                                         "bits rk4 same\n"
-                                                                         "bits tsit5 same\n"
-                                                                         "bits dop853 same\n"
-                                                                         "bits verner98 same\n"
-                                                                         "memory rk4 0 ok\n"
-                                                                         "memory dop853 0 ok\n"
-                                                                         "bits parameters same\n"
-                                                                         "nystrom refused not_separable\n");
+    CHECK(run_on_headers("compiled_model", {"models/heavy_top.toml"}, "", quickly) ==
+          "load missing.so not_found\n"
+          "load text.so not_a_model\n"
+          "load cut.so not_a_model\n"
+          "load other_machine.so other_machine\n"
+          "load other_version.so other_version\n"
+          "load heavy_top.so ok\n"
+          "model heavy_top 6 w1 I1\n"
+          "bits euler same\n"
+          "bits rk4 same\n"
+          "bits tsit5 same\n"
+          "bits dop853 same\n"
+          "bits verner98 same\n"
+          "memory rk4 0 ok\n"
+          "memory dop853 0 ok\n"
+          "bits parameters same\n"
+          "nystrom refused not_separable\n");
 }
 
 TEST_CASE("Taylor's method over compiled models has the bits of their classes, and takes no memory in a step")
@@ -93,7 +89,7 @@ TEST_CASE("Taylor's method over compiled models has the bits of their classes, a
                     "#include \"lagen/export_model.hpp\"\n#include \"compile/programs/compiled_series_models.hpp\"\n"
                     "LAGEN_EXPORT_MODEL(lagen::testing::" +
                         std::string(type) + ")\n");
-    CHECK(run_on_headers("compiled_series", {"models/heavy_top.toml"}, "--with taylor") ==
+    CHECK(run_on_headers("compiled_series", {"models/heavy_top.toml"}, "--with taylor", quickly) ==
           "heavy_top ok same, 0 events\n"
           "heavy_top ok same, 0 events\n"
           "heavy_top ok same, 0 events\n"
@@ -121,7 +117,7 @@ TEST_CASE("implicit methods have the bits of the header on compiled models, and 
                     "#include \"lagen/export_model.hpp\"\n#include \"compile/programs/implicit_models.hpp\"\n"
                     "LAGEN_EXPORT_MODEL(lagen::models::" +
                         name + ")\n");
-    CHECK(run_on_headers("compiled_implicit", {"models/heavy_top.toml"}) ==
+    CHECK(run_on_headers("compiled_implicit", {"models/heavy_top.toml"}, "", quickly) ==
           "heavy_top gauss2 ok same 0 ok\n"
           "heavy_top gauss4 ok same 0 ok\n"
           "heavy_top gauss8 ok same 0 ok\n"

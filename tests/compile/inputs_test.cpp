@@ -8,7 +8,8 @@ using namespace lagen::testing;
 
 TEST_CASE("a program sets the inputs of a generated model, and knows their Jacobian and the inverse dynamics")
 {
-    auto results = lines_by_key(run_on_headers("inputs", {"models/cart_pole.toml", "tests/compile/models/arm.toml"}));
+    auto results = lines_by_key(
+        run_on_headers("inputs", {"models/cart_pole.toml", "tests/compile/models/arm.toml"}, "", as_for_a_user));
     REQUIRE(results["angle end"].size() == 2);
     CHECK(std::stod(results["angle end"][0]) < 0.01);
     CHECK(results["angle end"][1] == "F");

@@ -52,7 +52,7 @@ TEST_CASE("every piece of C++ in README is part of a program that is compiled by
 
 TEST_CASE("README's stepper, dense solution and lambda do what it says")
 {
-    auto results = lines_by_key(run_on_headers("readme", {"models/heavy_top.toml"}));
+    auto results = lines_by_key(run_on_headers("readme", {"models/heavy_top.toml"}, "", as_for_a_user));
     const std::vector<std::string>& stepping = results["readme stepping"];
     REQUIRE(stepping.size() == 4);
     CHECK(stepping[0] == "ok");
@@ -71,7 +71,8 @@ TEST_CASE("README's stepper, dense solution and lambda do what it says")
 
 TEST_CASE("a run without options is compiled without events, rows and dense output, from few headers")
 {
-    CHECK(run_on_headers("readme_1", {"models/heavy_top.toml"}, "", "") == "top energy 5.966000 status ok\n");
+    CHECK(run_on_headers("readme_1", {"models/heavy_top.toml"}, "", as_for_a_user) ==
+          "top energy 5.966000 status ok\n");
     const std::string folder = std::string(LAGEN_BINARY_DIR) + "/compiled/";
     const std::string symbols = run_shell("nm -C '" + folder + "readme_1/program'").output;
     CHECK(symbols.find("lagen::detail::March<") != std::string::npos);

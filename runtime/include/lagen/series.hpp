@@ -8,6 +8,7 @@
 #include "lagen/lanes/registers.hpp"
 #include "lagen/scalar.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -33,7 +34,7 @@ struct TaylorSeries {
 };
 
 /// The same of n functions where n is known at run time, at the same places: k n + i. `resize` takes the memory, that
-/// of the spare row too.
+/// of the spare row too, and some where there are no functions: the rows of a series without any have their places.
 template <class S, int most>
 class TaylorSeries<S, -1, most> {
   public:
@@ -42,7 +43,7 @@ class TaylorSeries<S, -1, most> {
     void resize(std::size_t functions)
     {
         functions_ = functions;
-        numbers_.assign((static_cast<std::size_t>(most) + 2) * functions, S(0));
+        numbers_.assign((static_cast<std::size_t>(most) + 2) * std::max<std::size_t>(functions, 1), S(0));
     }
     [[nodiscard]] std::span<S> operator[](int k) noexcept
     {
