@@ -235,33 +235,34 @@ struct AnyFixed {
     using Stepper = AnyStepper<false>;
 };
 
-/// The stepper of a method for so many lanes: one of those in place where it is among them.
-template <int... in_place, class Method>
+/// The stepper of a method for so many lanes: one in place where there are from 1 to `in_place` of them.
+template <int in_place, class Method>
 [[nodiscard]] std::unique_ptr<StepperFace> stepper_of(const Method& method, Eigen::Index lanes)
 {
-    std::unique_ptr<StepperFace> found;
-    static_cast<void>(((lanes == in_place && (found = std::make_unique<StepperOf<Method, in_place>>(method))) || ...));
-    if (!found) found = std::make_unique<StepperOf<Method>>(method);
-    return found;
+    if constexpr (in_place > 0)
+        return lanes == in_place ? std::make_unique<StepperOf<Method, in_place>>(method)
+                                 : stepper_of<in_place - 1>(method, lanes);
+    else
+        return std::make_unique<StepperOf<Method>>(method);
 }
 
-/// The method of this type, AnyAdaptive or AnyFixed; with steppers of their own for these numbers of lanes.
-template <class Method, int... in_place>
+/// The method of this type, AnyAdaptive or AnyFixed; with steppers in place for up to so many lanes.
+template <class Method, int in_place = 0>
 [[nodiscard]] AnyAdaptive any_adaptive()
 {
     return {[](Eigen::Index lanes, double relative, double absolute) -> std::unique_ptr<StepperFace> {
                 Method method{};
                 method.relative = relative;
                 method.absolute = absolute;
-                return stepper_of<in_place...>(method, lanes);
+                return stepper_of<in_place>(method, lanes);
             },
             Method{}.control()};
 }
-template <class Method, int... in_place>
+template <class Method, int in_place = 0>
 [[nodiscard]] AnyFixed any_fixed()
 {
     return {[](Eigen::Index lanes) -> std::unique_ptr<StepperFace> {
-        return stepper_of<in_place...>(Method{.step = 1}, lanes);
+        return stepper_of<in_place>(Method{.step = 1}, lanes);
     }};
 }
 

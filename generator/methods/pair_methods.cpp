@@ -14,7 +14,7 @@ std::span<const ListedMethod> pair_methods()
     static const std::array list = {
         ListedMethod{"Dopri5", any_adaptive<Dopri5>()},
         ListedMethod{"Tsit5", any_adaptive<Tsit5>()},
-        ListedMethod{"Dop853", any_adaptive<Dop853>()},
+        ListedMethod{"Dop853", any_adaptive<Dop853, 4>()},
     };
     return list;
 }

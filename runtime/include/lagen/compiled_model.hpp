@@ -306,8 +306,9 @@ class CompiledModel {
     [[nodiscard]] double one(Function function, double t, const State& s) const noexcept
     {
         const Slot& at = slot(function);
+        if (at.function == nullptr) return std::numeric_limits<double>::quiet_NaN();
         evaluate(at, t, s);
-        return at.function == nullptr ? std::numeric_limits<double>::quiet_NaN() : at.values[0];
+        return at.values[0];
     }
     [[nodiscard]] Values all(Function function, double t, const State& s) const noexcept
     {

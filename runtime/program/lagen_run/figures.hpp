@@ -49,12 +49,14 @@ class Figures {
         if (means_.wants()) look(model, t, s);
     }
 
+    /// Is there a balance of energy and work, which asks for `sum`?
+    [[nodiscard]] bool sums() const noexcept { return balances_; }
+
     /// The motion over a time h from t0 on, inside(x) its state at t0 + x h: the work of the power, by Gauss' formula
     /// with so many nodes.
     template <class Inside>
     void sum(std::size_t nodes, const M& model, double t0, double h, const Inside& inside) requires(HasPower<M>)
     {
-        if (!balances_) return;
         if (nodes_.size() != nodes) {
             nodes_.resize(nodes);
             weights_.resize(nodes);
@@ -130,21 +132,17 @@ class Figures {
             if (balances_) take(energy - work);
         }
         if constexpr (HasInvariants<M>) visit_column(model.invariants(t, s), take);
-        if constexpr (HasConstraints<M>) visit_column(model.constraints(t, s), take);
-    }
-
-    void put_values(const M& model, double t, const State& s, double work, Values& values) const
-    {
-        std::size_t next = 0;
-        const auto put = [&](double value) { values[next++] = value; };
-        visit_watched(model, t, s, work, put);
-        if constexpr (HasCasimirs<M>) visit_column(model.casimirs(t, s), put);
+        if constexpr (HasConstraints<M>)
+            if (constraints_ > 0) visit_column(model.constraints(t, s), take);
     }
 
     [[nodiscard]] Values all_values(const M& model, double t, const State& s) const
     {
-        Values values(count_);
-        put_values(model, t, s, 0, values);
+        Values values;
+        values.reserve(count_);
+        const auto put = [&](double value) { values.push_back(value); };
+        visit_watched(model, t, s, 0, put);
+        if constexpr (HasCasimirs<M>) visit_column(model.casimirs(t, s), put);
         return values;
     }
 
@@ -185,10 +183,13 @@ class Figures {
         allowed_[k] = infinity;
     }
 
+    /// What is watched was seen.
     [[gnu::noinline]] void look(const M& model, double t, const State& s)
     {
         Values& values = seen_;
-        put_values(model, t, s, work_, values);
+        std::size_t next = watched_;
+        if constexpr (HasCasimirs<M>)
+            if (count_ > watched_) visit_column(model.casimirs(t, s), [&](double value) { values[next++] = value; });
         for (std::size_t k = watched_; k < count_; ++k) watch(model, k, t, values[k]);
         for (std::size_t k = 0; k < count_; ++k) values[k] -= reference_[k];
         means_.see(t - start_, values);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "lagen/compiled_model.hpp"
+#include "lagen/integrate/follow.hpp"
 #include "lagen/kernel.hpp"
 
 #include <cstddef>
@@ -65,14 +66,6 @@ void set_input(M& model, std::size_t k, double value)
         model.set_input(k, value);
     else if constexpr (requires { model.input(k); })
         model.input(k) = value;
-}
-
-/// Does it search for something, and follow what it found? Follows is true of every compiled model.
-template <class M>
-[[nodiscard]] bool follows([[maybe_unused]] const M& model) noexcept
-{
-    if constexpr (is_compiled_model<M>) return model.follows();
-    return Follows<M>;
 }
 
 /// The model of a run, or a copy of it that learns along the rows what it follows. The run may set its inputs.

@@ -79,6 +79,8 @@ class DriveRecord {
 
     void jump(double t, const State& from, const State& to) { figures_.jump(*model_, t, from, to); }
 
+    [[nodiscard]] bool sums() const noexcept { return figures_.sums(); }
+
     /// The motion over a time h from t0 on, inside(x) its state at t0 + x h.
     template <class Inside>
     void sum(std::size_t nodes, double t0, double h, const Inside& inside) requires(HasPower<M>)

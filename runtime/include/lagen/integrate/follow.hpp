@@ -2,22 +2,29 @@
 /// Why a step failed whose model follows something: because the step was too long, or because what it follows ends.
 #pragma once
 
-#include "lagen/integrate/retract.hpp"
+#include "lagen/integrate/states.hpp"
 
 #include <cmath>
 #include <limits>
 
 namespace lagen::detail {
 
-/// `status`, where it is good and `domain` (the status of the domain at (t, s)) too, joined with that of following.
+/// Does it search for something, and follow what it found? Follows is true of every compiled model.
+template <class M>
+[[nodiscard]] bool follows([[maybe_unused]] const M& model) noexcept
+{
+    if constexpr (requires { model.follows(); }) return model.follows();
+    return Follows<M>;
+}
+
+/// `status`, where it is good and that of the domain at (t, s) too, joined with that of following.
 template <Follows M>
 [[nodiscard]] status_t<typename M::Scalar> followed(M& model, const status_t<typename M::Scalar>& status,
-                                                    const status_t<typename M::Scalar>& domain,
                                                     real_t<typename M::Scalar> t, const typename M::State& s) noexcept
 {
     using Scalar = typename M::Scalar;
     using Lanes = StatusOf<Scalar>;
-    if (!is_pack<Scalar> && !Lanes::all_good(Lanes::first(status, domain))) return status;
+    if (!is_pack<Scalar> && !Lanes::all_good(Lanes::first(status, domain_status(model, t, s)))) return status;
     return Lanes::first(status, model.follow(Scalar(t), s));
 }
 
@@ -39,8 +46,7 @@ requires(!is_pack<typename M::Scalar>) [[nodiscard]] Status
     using Scalar = typename M::Scalar;
     using Real = real_t<Scalar>;
     using std::sqrt;
-    if constexpr (requires { model.follows(); })
-        if (!model.follows()) return reason;
+    if (!follows(model)) return reason;
     tangent_t<M> rate;
     if constexpr (std::is_same_v<typename M::State, tangent_t<M>>) rate = s;
     if (reason != Status::newton_diverged || model.rhs(Scalar(t), s, rate) != Status::ok) return reason;

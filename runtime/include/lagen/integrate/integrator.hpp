@@ -279,7 +279,8 @@ class Integrator {
     /// Where `status` is good and s_ inside the domain, a model that searches for something follows it to (t, s_).
     [[gnu::always_inline]] status_t<Scalar> follow(const status_t<Scalar>& status, const Real& t)
     {
-        if constexpr (Follows<M>) return detail::followed(model_, status, detail::domain_status(model_, t, s_), t, s_);
+        if constexpr (Follows<M>)
+            if (detail::follows(model_)) return detail::followed(model_, status, t, s_);
         return status;
     }
 

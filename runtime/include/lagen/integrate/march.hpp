@@ -31,7 +31,7 @@ class March {
     static constexpr int pieces = Stepper::adaptive ? 4 : 1;
     static constexpr bool asks = std::is_same_v<Asked, Options<M>>;
     static constexpr bool can_jump = asks && RightHandSide<M> && !is_pack<Scalar> && std::is_copy_assignable_v<Stepper>;
-    static constexpr bool sums = requires(Observer observer, Real t, const State& (*inside)(const Real&))
+    static constexpr bool may_sum = requires(Observer observer, Real t, const State& (*inside)(const Real&))
     {
         observer.sum(std::size_t{1}, t, t, inside);
     };
@@ -41,7 +41,7 @@ class March {
         : steps_(model, s, span.start, method), span_(span), options_(options), observer_(observer),
           rows_(options.at, span, observer), watch_(steps_.model(), options.events, zero_tolerance<Real>(method)),
           instant_(steps_.model(), options.events, zero_tolerance<Real>(method)), last_jumps_(options.events.size()),
-          looks_(sums || !options.at.empty() || !options.events.empty() || options.dense),
+          looks_(sums() || !options.at.empty() || !options.events.empty() || options.dense),
           limit_(options.has_company() ? 0 : options.max_steps)
     {
     }
@@ -182,7 +182,12 @@ class March {
 
     Status look(Status ending)
     {
-        if constexpr (asks || HasDomain<M>) ending = commit(ending);
+        if constexpr (asks || HasDomain<M>) {
+            if (ending == Status::ok && watch_.empty())
+                move(Real(1), steps_.length_);
+            else
+                ending = commit(ending);
+        }
         show();
         return ending;
     }
@@ -310,12 +315,20 @@ class March {
         return status;
     }
 
-    /// For an observer that integrates along the motion: the part of the step that counts, which is theta h long,
-    /// the state at each fraction x of it, and how many of Gauss' nodes an integral needs to have the order of the
-    /// method. A collocation polynomial gives integrals over whole steps that order too.
+    /// Does the observer integrate along the motion? It may say that it does not.
+    [[nodiscard]] bool sums() const noexcept
+    {
+        if constexpr (requires { observer_.sums(); }) return observer_.sums();
+        return may_sum;
+    }
+
+    /// For an observer that does: the part of the step that counts, which is theta h long, the state at each fraction x
+    /// of it, and how many of Gauss' nodes an integral needs to have the order of the method. A collocation polynomial
+    /// gives integrals over whole steps that order too.
     void sum(const Real& theta, const Real& h)
     {
-        if constexpr (sums) {
+        if constexpr (may_sum) {
+            if (!sums()) return;
             const auto nodes = (dense_order_of(steps_.stepper_) + 3) / 2;
             observer_.sum(nodes, steps_.t_from_, Real(theta * h), [&](const Real& x) -> const State& {
                 if constexpr (requires { steps_.stepper_.polynomial(x, steps_.inner_); })
