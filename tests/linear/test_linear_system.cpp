@@ -98,3 +98,20 @@ TEST_CASE("on a leaf what points off it need not be reached")
     CHECK(leaf.is_seen(0, Q));
     CHECK_FALSE(with_input(A, B).is_seen(0, Q));
 }
+
+TEST_CASE("eigenvalues stand by real, then by imaginary parts; there are none where an entry is no number")
+{
+    Matrix A(3, 3);
+    A << 0, 3, 0, -3, 0, 0, 0, 0, -2;
+    const std::vector<Eigenvalue> found = eigenvalues(A);
+    REQUIRE(found.size() == 3);
+    CHECK(std::abs(found[0] - Eigenvalue(-2)) < 1e-15);
+    CHECK(std::abs(found[1] - Eigenvalue(0, -3)) < 1e-15);
+    CHECK(std::abs(found[2] - Eigenvalue(0, 3)) < 1e-15);
+    Matrix cycle = Matrix::Zero(6, 6); // steps with shifts of 0 do not move it
+    for (Eigen::Index i = 0; i < 6; ++i) cycle(i, (i + 1) % 6) = 1;
+    for (const Eigenvalue& value : eigenvalues(cycle)) CHECK(std::abs(std::pow(value, 6) - 1.0) < 1e-13);
+    A(2, 2) = std::numeric_limits<double>::quiet_NaN();
+    CHECK(eigenvalues(A).empty());
+    CHECK(eigenvalues(Matrix(0, 0)).empty());
+}

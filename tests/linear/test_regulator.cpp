@@ -14,9 +14,8 @@ namespace {
 std::variant<Regulator, NoRegulator> gain_of(const Matrix& A, const Matrix& B, const Matrix& Q, const Matrix& R)
 {
     const LinearSystem system = linear_system(A, B, Matrix(0, A.rows()));
-    const Eigen::VectorXcd values = A.eigenvalues();
     std::vector<MultipleEigenvalue> each;
-    for (const auto& value : values) each.push_back({value});
+    for (const Eigenvalue& value : eigenvalues(A)) each.push_back({value});
     return regulator(system, modes_of(system, each), Q, R);
 }
 

@@ -62,7 +62,7 @@ Answer sweep_with(const detail::SweepJob& job, const std::vector<double>& number
         std::clearerr(stream);
     };
     const int in = redirect(stdin, "in", "r"), out = redirect(stdout, "out", "w"), err = redirect(stderr, "err", "w");
-    const int code = sweep<M, Method>();
+    const int code = sweep<M, Method>(0, nullptr);
     restore(stdin, in);
     restore(stdout, out);
     restore(stderr, err);
