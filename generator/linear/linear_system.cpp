@@ -99,9 +99,10 @@ LinearSystem linear_system(Matrix A, Matrix B, const Matrix& slopes)
 
 std::vector<Eigenvalue> eigenvalues(const Matrix& A)
 {
-    if (!A.allFinite()) return {};
-    const Eigen::VectorXcd values = A.eigenvalues();
-    std::vector<Eigenvalue> out(values.begin(), values.end());
+    if (A.size() == 0 || !A.allFinite()) return {};
+    const Eigen::EigenSolver<Matrix> solver(A, false);
+    if (solver.info() != Eigen::Success) return {};
+    std::vector<Eigenvalue> out(solver.eigenvalues().begin(), solver.eigenvalues().end());
     std::ranges::sort(out, [](const Eigenvalue& a, const Eigenvalue& b) {
         return a.real() != b.real() ? a.real() < b.real() : a.imag() < b.imag();
     });

@@ -16,7 +16,8 @@ namespace lagen::linear {
 using Matrix = Eigen::MatrixXd;
 using Eigenvalue = std::complex<double>;
 
-/// Of a square matrix, by real, then by imaginary parts; none where an entry is no finite number.
+/// Of a square matrix, by real, then by imaginary parts; none where an entry is no finite number, or they are not
+/// found.
 [[nodiscard]] std::vector<Eigenvalue> eigenvalues(const Matrix& A);
 
 struct LinearSystem {

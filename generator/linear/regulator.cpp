@@ -73,9 +73,11 @@ Matrix lyapunov(const Matrix& F, const Matrix& C)
     return (X + X.transpose()) / 2;
 }
 
-bool decays(const std::vector<Eigenvalue>& values)
+/// All of `size` eigenvalues, of which there are none where they are not found.
+bool decays(const std::vector<Eigenvalue>& values, Eigen::Index size)
 {
-    return std::ranges::all_of(values, [](const Eigenvalue& each) { return each.real() < 0; });
+    return std::ssize(values) == size &&
+           std::ranges::all_of(values, [](const Eigenvalue& each) { return each.real() < 0; });
 }
 
 } // namespace
@@ -94,7 +96,7 @@ std::variant<Regulator, NoRegulator> regulator(const LinearSystem& system, const
     const Matrix weighted = R.llt().solve(B.transpose()); // R^-1 B^T
     const Riccati equation{A, B * weighted, T.transpose() * Q * T};
     std::optional<Matrix> P = by_stable_subspace(equation);
-    if (!P || !decays(eigenvalues(A - equation.G * *P))) return NoRegulator{};
+    if (!P || !decays(eigenvalues(A - equation.G * *P), A.rows())) return NoRegulator{};
     const Matrix K = weighted * *P;
     const Matrix refined = lyapunov(A - B * K, equation.Q + K.transpose() * R * K);
     if (equation.residual(refined) < equation.residual(*P)) P = refined;
@@ -102,7 +104,7 @@ std::variant<Regulator, NoRegulator> regulator(const LinearSystem& system, const
     Regulator out{gain * T.transpose(), equation.residual(*P), eigenvalues(A - B * gain)};
     const double rounding = 1e-14 * out.K.cwiseAbs().maxCoeff();
     out.K = out.K.unaryExpr([&](double entry) { return std::abs(entry) < rounding ? 0.0 : entry; });
-    if (!decays(out.closed_loop)) return NoRegulator{};
+    if (!decays(out.closed_loop, A.rows())) return NoRegulator{};
     return out;
 }
 

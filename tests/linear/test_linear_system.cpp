@@ -110,6 +110,7 @@ TEST_CASE("eigenvalues stand by real, then by imaginary parts; there are none wh
     CHECK(std::abs(found[2] - Eigenvalue(0, 3)) < 1e-15);
     Matrix cycle = Matrix::Zero(6, 6); // steps with shifts of 0 do not move it
     for (Eigen::Index i = 0; i < 6; ++i) cycle(i, (i + 1) % 6) = 1;
+    REQUIRE(eigenvalues(cycle).size() == 6);
     for (const Eigenvalue& value : eigenvalues(cycle)) CHECK(std::abs(std::pow(value, 6) - 1.0) < 1e-13);
     A(2, 2) = std::numeric_limits<double>::quiet_NaN();
     CHECK(eigenvalues(A).empty());

@@ -139,9 +139,11 @@ void take_answer(std::string_view answer, StabilityChart& chart)
     chart::StabilityAnswer found;
     if (!detail::take_packed(answer, found) || !answer.empty())
         throw InternalError("a program of a chart gave another answer");
-    chart.columns = std::move(found.columns);
-    for (std::size_t j = 0; j < found.linear.size(); ++j)
-        chart.columns.at(j).omega = fastest_oscillation(found.linear[j]);
+    if (chart.columns.empty()) { // every program finds the same
+        chart.columns = std::move(found.columns);
+        for (std::size_t j = 0; j < found.linear.size(); ++j)
+            chart.columns.at(j).omega = fastest_oscillation(found.linear[j]);
+    }
     for (chart::MethodFates& method : found.methods) chart.methods.push_back({std::move(method)});
 }
 
@@ -203,7 +205,11 @@ class CurvePart {
         std::vector<ProgramText> texts;
         for (const MethodGroup& methods : groups) texts.push_back(program_of(problem_, methods));
         std::vector<ChartCall> calls;
-        for (const std::string& program : compile_programs(texts)) calls.push_back({program, detail::packed(request_)});
+        chart::StabilityRequest request = request_;
+        for (const std::string& program : compile_programs(texts)) {
+            calls.push_back({program, detail::packed(request)});
+            request.linear = false; // the first one tells of the columns
+        }
         for (const std::string& answer : answers_of(calls, processors())) take_answer(answer, chart);
     }
 

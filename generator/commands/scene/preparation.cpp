@@ -108,8 +108,8 @@ std::vector<std::string> record_files(const Options& options, const Model& model
                                       const MethodEntry& method, const Driver& driver)
 {
     ContentHash hash;
-    add_model(hash, model, false);
-    add_scene(hash, model, scene);
+    add_model(hash, model);
+    if (!add_scene(hash, model, scene) || scene.project) return {""}; // a proof finds what a start that is moved keeps
     hash.add(driver.folder).add(vectors_of(driver)).add(options.has("unchecked") ? "unchecked" : "");
     std::vector<std::string> files;
     for (const std::string& name : compiled_for(method, driver))

@@ -45,24 +45,6 @@ void add_lagen(ContentHash& hash)
     hash.add(std::to_string(fs::last_write_time(program, ignored).time_since_epoch().count()));
 }
 
-/// Without the tables of scenes: no proof and no kernel rests on those. A line of values that begins with a bracket may
-/// end what is left out early.
-std::string text_without_scenes(const Model& model)
-{
-    const std::string& whole = model.file->text;
-    std::string text;
-    bool in_scene = false;
-    for (std::size_t begin = 0, end = 0; begin < whole.size(); begin = end) {
-        end = std::min(whole.find('\n', begin), whole.size() - 1) + 1;
-        const std::string_view line(whole.data() + begin, end - begin);
-        const auto is_head = [&](const Scene& scene) { return begin <= scene.where.begin && scene.where.begin < end; };
-        if (line.starts_with('['))
-            in_scene = line.starts_with("[scene.") && (in_scene || std::ranges::any_of(model.scenes, is_head));
-        if (!in_scene) text += line;
-    }
-    return text;
-}
-
 } // namespace
 
 RunRecord record_of(const CheckedModel& checked, const KernelModule& module, const std::string& form,
@@ -81,9 +63,9 @@ RunRecord record_of(const CheckedModel& checked, const KernelModule& module, con
     return record;
 }
 
-void add_model(ContentHash& hash, const Model& model, bool scenes)
+void add_model(ContentHash& hash, const Model& model)
 {
-    hash.add(lines_of_code(scenes ? model.file->text : text_without_scenes(model), "#"));
+    hash.add(lines_of_code(model.file->text, "#"));
     for (const auto& file : model.included) hash.add(lines_of_code(file->text, "#"));
     for (const Size& size : model.sizes) hash.add(size.name).add(std::to_string(size.value));
     if (std::ranges::any_of(model.parameters, &Parameter::bound))
@@ -91,21 +73,30 @@ void add_model(ContentHash& hash, const Model& model, bool scenes)
             hash.add(parameter.bound ? "constant" : "").add(to_text(parameter.value));
 }
 
-void add_scene(ContentHash& hash, const Model& model, const Scene& scene)
+bool add_scene(ContentHash& hash, const Model& model, const Scene& scene)
 {
-    const auto add_all = [&hash](const char* what, const std::vector<NamedTree>& trees) {
-        hash.add(what);
-        for (const NamedTree& tree : trees) hash.add(tree.name).add(to_text(tree.value));
+    bool whole = true;
+    const auto add_tree = [&](const std::string& name, const Tree& tree) {
+        const std::string text = tree == nullptr ? "" : to_text(tree);
+        whole = whole && !text.ends_with("...");
+        hash.add(name).add(text);
     };
-    hash.add(scene.form);
+    const auto add_all = [&](const char* what, const std::vector<NamedTree>& trees) {
+        hash.add(what).add(std::to_string(trees.size()));
+        for (const NamedTree& tree : trees) add_tree(tree.name, tree.value);
+    };
+    hash.add(scene.form).add(scene.stepped_by).add(model.discrete ? model.discrete->scheme : "");
     add_all(scene.observe ? "observe" : "all", scene.observe.value_or(std::vector<NamedTree>()));
     add_all("plot", plot_coordinates(scene));
     add_all(scene.input_table ? "table" : "inputs", scene.inputs);
-    for (const Event& event : scene.events)
-        add_all("event", {{event.name, event.when, {}}}), add_all("jump", event.jump);
-    hash.add(scene.time_scale == nullptr ? "" : to_text(scene.time_scale));
-    for (const FirstOrderState& state : model.states) // a command may have added some
-        hash.add(state.symbol.name).add(state.rate == nullptr ? "" : to_text(state.rate));
+    hash.add(std::to_string(scene.events.size()));
+    for (const Event& event : scene.events) {
+        add_tree(event.name, event.when);
+        add_all("jump", event.jump);
+    }
+    add_tree("time scale", scene.time_scale);
+    for (const FirstOrderState& state : model.states) add_tree(state.symbol.name, state.rate); // commands add some
+    return whole;
 }
 
 std::string kept_file(ContentHash hash)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// What a run proved and compiled, kept in the cache beside the program: the next run of the same equations, with the
-/// same kernels, reads it, and goes from the values of its scene straight to the program.
+/// What a run proved and compiled, kept in the cache beside the program: the next run of the same text, with the same
+/// kernels, reads it, and goes from the values of its scene straight to the program.
 #pragma once
 
 #include "commands/scene/scene_program.hpp"
@@ -37,11 +37,12 @@ struct RunRecord {
                                   const std::vector<long double>& parameters);
 
 /// The text of the model and of the files that it includes, without lines of comments, its sizes and the parameters
-/// that are bound. Without `scenes` their tables are left out: what is proved does not rest on them.
-void add_model(ContentHash& hash, const Model& model, bool scenes = true);
+/// that are bound.
+void add_model(ContentHash& hash, const Model& model);
 
-/// What the kernels of a scene rest on besides its model: not its name, its start, its times, its tolerances.
-void add_scene(ContentHash& hash, const Model& model, const Scene& scene);
+/// What the kernels of a scene rest on besides the text of its model: not its name, its start, its times, its
+/// tolerances. False where an expression is so long that its text does not tell it from others.
+[[nodiscard]] bool add_scene(ContentHash& hash, const Model& model, const Scene& scene);
 
 /// The file in the cache for what has this hash, with lagen itself, the runtime and the compiler. Empty where there is
 /// no compiler, or no place for a cache.

@@ -13,14 +13,14 @@
 /// Where no figures are given a column is looked at along its own motion, with a tenth of its shortest step and at most
 /// 10^6 steps: the scale is the largest |f - f(1)| with the arrow 1 at the same point, which tends to the kinetic
 /// energy where f is the energy; omega the largest |arg lambda|/h of an eigenvalue lambda of the derivative of a step
-/// in (x, mu), by differences, of the first 400 steps.
+/// in (x, mu), by differences, of 400 steps at most.
 #pragma once
 
 #include "lagen_chart/stability.hpp"
 
 namespace lagen::chart {
 
-inline constexpr int most_turns = 400;
+inline constexpr std::size_t most_turns = 400;
 inline constexpr double short_step = 0.1; ///< of the shortest one
 inline constexpr int fold_halvings = 40;
 
@@ -66,8 +66,6 @@ void add_step(const M& model, double t, const typename M::State& s, LinearParts&
         for (int i = 0; i < n; ++i) columns.push_back((x[0][i] - x[1][i]) / (2 * away));
         for (int a = 0; a < Lanes::rank; ++a) columns.push_back((mu[0][a] - mu[1][a]) / (2 * away));
     }
-    linear.lanes = static_cast<std::size_t>(size);
-    linear.step = model.step();
     linear.entries.insert(linear.entries.end(), columns.begin(), columns.end());
 }
 
@@ -82,6 +80,10 @@ void look_along(const DiscreteRequest<M>& request, std::size_t first, StabilityA
     const double length = request.common.end - request.common.start;
     const double step = std::max(short_step * column.model.step(), length / double(most_reference_steps));
     column.model.parameter(request.common.step) = step;
+    column.linear.lanes = static_cast<std::size_t>(detail::ArrowLanes<M>::n + detail::ArrowLanes<M>::rank);
+    column.linear.most =
+        std::min(most_turns, most_matrices(request.cells.size() / request.steps(), column.linear.lanes));
+    column.linear.step = step;
     Integrator run(column.model, column.start, request.common.start, Discrete{});
     double largest = 0, scale = 0;
     for (int k = 0; run.status() == Status::ok && run.t() + step <= request.common.end; ++k) {
@@ -93,7 +95,7 @@ void look_along(const DiscreteRequest<M>& request, std::size_t first, StabilityA
         const double difference = std::abs(f - followed_step(request.common, column.model, run.t(), unit));
         if (std::isfinite(difference)) scale = std::max(scale, difference);
         largest = std::max(largest, std::abs(f));
-        if (k < most_turns) add_step(column.model, run.t(), run.state(), column.linear);
+        if (column.linear.wants_next()) add_step(column.model, run.t(), run.state(), column.linear);
         if (run.step() != Status::ok) break;
     }
     if (request.common.follow == Follow::size || !(scale > 0)) scale = largest > 0 ? largest : 1;

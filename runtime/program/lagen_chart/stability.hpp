@@ -8,7 +8,7 @@
 /// Its argument is the file of a StabilityRequest; it answers a StabilityAnswer (stability_request.hpp).
 ///
 /// A column is looked at along its motion by Dop853 with tolerance 1e-9 first, up to the time `reached`: omega is the
-/// largest imaginary part of an eigenvalue of the Jacobian along it, of the first 4000 steps; scale the largest |f(x,
+/// largest imaginary part of an eigenvalue of the Jacobian along it; scale the largest |f(x,
 /// y) - f(x, 0)|, which is the kinetic energy where f is the energy, or |f| where that is 0. Of a run with f_0 at its
 /// start
 ///   error is the largest |f - f_0| / scale,
@@ -30,7 +30,7 @@ namespace lagen {
 
 namespace chart {
 
-inline constexpr std::size_t most_spectra = 4000, most_reference_steps = 1'000'000;
+inline constexpr std::size_t most_reference_steps = 1'000'000;
 
 template <class M>
 struct StabilityColumn {
@@ -74,7 +74,6 @@ void add_jacobian(const M& model, double t, const typename M::State& s, LinearPa
     if constexpr (HasJacobian<M>) {
         std::array<double, M::jacobian_rows.size()> values{};
         model.jacobian_values(t, s, values);
-        linear.lanes = static_cast<std::size_t>(M::dimension);
         double* const matrix = &*linear.entries.insert(linear.entries.end(), linear.lanes * linear.lanes, 0.0);
         for (std::size_t k = 0; k < values.size(); ++k)
             matrix[M::jacobian_rows[k] * M::dimension + M::jacobian_columns[k]] = values[k];
@@ -87,7 +86,6 @@ struct ColumnObserver {
     const StabilityRequest& request;
     StabilityColumn<M>& column;
     double largest = 0; ///< |f|
-    std::size_t seen = 0;
 
     void row(double, const typename M::State&) {}
     void operator()(double t, const typename M::State& s)
@@ -98,7 +96,7 @@ struct ColumnObserver {
         const double difference = std::abs(f - followed(request, column.model, t, at_rest));
         if (difference > column.figures.scale && std::isfinite(difference)) column.figures.scale = difference;
         largest = std::max(largest, std::abs(f));
-        if (++seen <= most_spectra) add_jacobian(column.model, t, s, column.linear);
+        if (column.linear.wants_next()) add_jacobian(column.model, t, s, column.linear);
     }
 };
 
@@ -106,6 +104,8 @@ template <class M>
 void look_at(const StabilityRequest& request, StabilityColumn<M>& column)
 {
     ColumnObserver<M> observer{request, column};
+    column.linear.lanes = static_cast<std::size_t>(M::dimension);
+    if (request.linear) column.linear.most = most_matrices(request.starts.size(), column.linear.lanes);
     const auto run = integrate(column.model, column.start, {request.start, request.end}, Dop853{.tolerance = 1e-9},
                                {.max_steps = most_reference_steps}, observer);
     ColumnFigures& figures = column.figures;

@@ -3,6 +3,7 @@
 /// (lagen_run/archive.hpp). No name of the runtime is in here.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -29,6 +30,7 @@ struct ColumnFigures {
 };
 
 struct StabilityRequest {
+    bool linear = true; ///< are the linear equations of columns wanted?
     double start = 0, end = 0;
     Follow follow = Follow::size;
     std::size_t invariant = 0;
@@ -40,7 +42,8 @@ struct StabilityRequest {
 
     static void each(auto& self, auto& archive)
     {
-        archive(self.start, self.end, self.follow, self.invariant, self.steps, self.starts, self.figures, self.step);
+        archive(self.linear, self.start, self.end, self.follow, self.invariant, self.steps, self.starts, self.figures,
+                self.step);
     }
 };
 
@@ -64,14 +67,37 @@ struct MethodFates {
     static void each(auto& self, auto& archive) { archive(self.name, self.cells, self.folds); }
 };
 
-/// The linear equations along the motion of a column, of discrete motions of length `step`: matrices one after another.
+/// The linear equations along the motion of a column, of discrete motions of length `step`: matrices one after another,
+/// at steps as far apart as it takes to keep no more than `most` of them.
 struct LinearParts {
-    std::size_t lanes = 0;
+    std::size_t lanes = 0, most = 0;
     double step = 0;
     std::vector<double> entries;
 
+    /// Is the next step one of them? Where there are as many as there may be every second one goes.
+    [[nodiscard]] bool wants_next()
+    {
+        const std::size_t size = lanes * lanes;
+        if (most == 0 || seen_++ % every_ != 0) return false;
+        if (entries.size() < most * size) return true;
+        for (std::size_t k = 0; 2 * k * size < entries.size(); ++k)
+            std::copy_n(&entries[2 * k * size], size, &entries[k * size]);
+        entries.resize((most + 1) / 2 * size);
+        every_ *= 2;
+        return (seen_ - 1) % every_ == 0;
+    }
+
     static void each(auto& self, auto& archive) { archive(self.lanes, self.step, self.entries); }
+
+  private:
+    std::size_t seen_ = 0, every_ = 1;
 };
+
+/// Of each of so many columns of a model with so many lanes: together they are no more than 32 MB.
+[[nodiscard]] inline std::size_t most_matrices(std::size_t columns, std::size_t lanes)
+{
+    return std::clamp<std::size_t>(4'000'000 / std::max<std::size_t>(1, columns * lanes * lanes), 2, 4000);
+}
 
 struct StabilityAnswer {
     std::vector<ColumnFigures> columns;

@@ -180,7 +180,9 @@ RunReport run_plan(RunPlan<M>& plan, const Method& method, const RunJob& job, co
     if (ended_early && !fixed && record.last_time() != run.t) record.row(run.t, run.state);
     RunReport report = report_of(job, plan, run);
     report.seconds = seconds.count();
-    record.report(report);
+    const bool refused = run.status() == Status::singular_mass_matrix || run.status() == Status::not_separable ||
+                         run.status() == Status::invalid_input;
+    if (run.steps > 0 || !refused) record.report(report); // one that was refused at its start has measured nothing
     branches.report(run, report);
     return report;
 }
