@@ -129,6 +129,7 @@ endfunction()
 function(lagen_test_room name)
   cmake_parse_arguments(PARSE_ARGV 1 ROOM "SEPARATE;TEMPLATES;UNSANITIZED;PARSES" "" "LIBRARIES;APART;LATER;SECONDS;SANITIZED")
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
+  list(FILTER sources EXCLUDE REGEX "/readme_1\\.cpp$") # a program that a test compiles
   # Unoptimised templates take an hour for these with sanitizers.
   if(ROOM_LATER AND (NOT LAGEN_ALL_TESTS OR (ROOM_TEMPLATES AND LAGEN_SANITIZE)))
     list(TRANSFORM ROOM_LATER REPLACE "(.+)" "${CMAKE_CURRENT_SOURCE_DIR}/${name}/\\1.cpp")

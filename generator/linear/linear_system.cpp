@@ -12,7 +12,8 @@ using Complex = Eigen::MatrixXcd;
 constexpr double rank_tolerance = 1e-9;
 constexpr double least_threshold = 1e-11; ///< of a pivot that is 0, relative to the largest
 
-/// Whether the rank of M is the smaller of its dimensions. Written with real numbers it has each singular value twice.
+/// True where the rank of M is the smaller of its dimensions. The real matrix of twice the size that M is written as
+/// has each of its singular values twice.
 bool has_full_rank(const Complex& M)
 {
     if (M.size() == 0) return true;

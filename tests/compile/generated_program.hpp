@@ -15,6 +15,7 @@ namespace lagen::testing {
 /// How a program is compiled. What it includes `first` is read once for all that are compiled alike.
 struct Compilation {
     std::string first, level = "-O1", compiler = std::getenv("CXX") == nullptr ? "c++" : std::getenv("CXX");
+    std::string programs = "programs/"; ///< the folder of tests/compile that it is in
 };
 inline const Compilation as_others{"lagen/lagen.hpp"}, as_for_a_user{""},
     quickly{"", "-O0", "clang++"}; ///< many methods are instantiated, and little is computed
@@ -81,7 +82,7 @@ inline std::string run_on_headers(const std::string& name, const std::vector<std
         INFO(generated.output);
         REQUIRE(generated.status == 0);
     }
-    compile("", how, source + "/tests/compile/programs/" + name + ".cpp", folder, folder + "/program");
+    compile("", how, source + "/tests/compile/" + how.programs + name + ".cpp", folder, folder + "/program");
     const Shell run = run_shell("'" + folder + "/program'");
     REQUIRE(run.status == 0);
     return run.output;

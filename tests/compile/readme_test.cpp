@@ -71,7 +71,7 @@ TEST_CASE("README's stepper, dense solution and lambda do what it says")
 
 TEST_CASE("a run without options is compiled without events, rows and dense output, from few headers")
 {
-    CHECK(run_on_headers("readme_1", {"models/heavy_top.toml"}, "", as_for_a_user) ==
+    CHECK(run_on_headers("readme_1", {"models/heavy_top.toml"}, "", {.first = "", .programs = ""}) ==
           "top energy 5.966000 status ok\n");
     const std::string folder = std::string(LAGEN_BINARY_DIR) + "/compiled/";
     const std::string symbols = run_shell("nm -C '" + folder + "readme_1/program'").output;

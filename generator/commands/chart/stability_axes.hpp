@@ -25,7 +25,7 @@ struct StabilityAxis {
 [[nodiscard]] std::vector<StabilityAxis> stability_axes(const std::string& over, const Model& model,
                                                         const Scene& scene);
 
-/// What a column of the chart sets.
+/// A column of the chart gives these values to parameters and to the start.
 struct ColumnPlace {
     Values parameters, initial;
 };

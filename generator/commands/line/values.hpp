@@ -13,7 +13,7 @@
 
 namespace lagen {
 
-/// What is given to --NAME, closed over parameters; ModelError where it depends on anything else.
+/// The expression given to --NAME, closed over parameters; ModelError where it depends on anything else.
 [[nodiscard]] Tree option_tree(const Model& model, const std::string& name, const Excerpt& text);
 /// The same of a number, a vector or a matrix.
 [[nodiscard]] ArrayValue option_array(const Model& model, const std::string& name, const Excerpt& text);

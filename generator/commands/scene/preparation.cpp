@@ -90,8 +90,8 @@ std::string vectors_of(const Driver& driver)
     return options.empty() ? "" : options.front();
 }
 
-/// What is compiled for a method, in the names of records. Methods that take every system share a compiled model, and
-/// one with more kernels than they ask for serves them: the first name is theirs.
+/// A record is named by the kernels that its methods ask for. Methods that take every system share a compiled model,
+/// and one with more kernels than they ask for serves them: the first name is theirs.
 std::vector<std::string> compiled_for(const MethodEntry& method, const Driver& driver)
 {
     const std::optional<KernelsAsked> asked = integrates_compiled(method.type);

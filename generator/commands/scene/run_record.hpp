@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// What a run proved and compiled, kept in the cache beside the program: the next run of the same text, with the same
-/// kernels, reads it, and goes from the values of its scene straight to the program.
+/// The record of a run is kept in the cache beside its program, with everything that was proved: the next run of the
+/// same text, with the same kernels, reads it, and goes from the values of its scene straight to the program.
 #pragma once
 
 #include "commands/scene/scene_program.hpp"
@@ -40,8 +40,8 @@ struct RunRecord {
 /// that are bound.
 void add_model(ContentHash& hash, const Model& model);
 
-/// What the kernels of a scene rest on besides the text of its model: not its name, its start, its times, its
-/// tolerances. False where an expression is so long that its text does not tell it from others.
+/// Adds everything of a scene that its kernels rest on besides the text of the model: not its name, its start, its
+/// times, its tolerances. False where an expression is so long that its text does not tell it from others.
 [[nodiscard]] bool add_scene(ContentHash& hash, const Model& model, const Scene& scene);
 
 /// The file in the cache for what has this hash, with lagen itself, the runtime and the compiler. Empty where there is

@@ -70,7 +70,7 @@ void use_values(ProgramInput& input, const Scene& scene, const SceneValues& valu
 /// The doubles next to these numbers.
 [[nodiscard]] std::vector<double> doubles_of(const std::vector<long double>& values);
 
-/// What a run is asked for, in doubles.
+/// The job of a run with this input, in doubles.
 [[nodiscard]] detail::RunJob job_of(const ProgramInput& input);
 [[nodiscard]] std::vector<detail::EventAsked> events_asked(const std::vector<Event>& events);
 

@@ -105,6 +105,7 @@ void judge_state(const RunSetting& run, SecondRun wanted, RunOutcome& outcome)
     if (!outcome.second_run.empty()) return;
     std::optional<ProgramInput> input = finer_input(run, outcome.second_run);
     if (!input) return;
+    std::string made = outcome.second_run;
     input->most_steps = most_times * (outcome.steps + outcome.rejected) + spare_steps;
     RunOutcome second = finer_run(run, *input, outcome);
     // The same steps confirm nothing.
@@ -114,7 +115,8 @@ void judge_state(const RunSetting& run, SecondRun wanted, RunOutcome& outcome)
         if (!next) break;
         input = next;
         second = finer_run(run, *input, outcome);
-        outcome.second_run = fmt::format("a second run at 1e-{} of the tolerance: a tenth makes the same steps", k);
+        made = fmt::format("a second run at 1e-{} of the tolerance", k);
+        outcome.second_run = made + ": a tenth makes the same steps";
     }
     if (is_interrupted(second)) {
         outcome.second_run = "not estimated, the second run was interrupted";
@@ -122,7 +124,7 @@ void judge_state(const RunSetting& run, SecondRun wanted, RunOutcome& outcome)
     }
     outcome.accuracy = accuracy_of(outcome.table, second.table, input->times.kind == Sampling::Kind::event);
     if (!outcome.accuracy)
-        outcome.second_run = outcome.second_run.substr(0, outcome.second_run.find(':')) + " has no row to compare";
+        outcome.second_run = made + " has no row to compare";
     else if (!succeeded(second.status) && second.status != outcome.status)
         outcome.second_run += fmt::format(", which ends at t = {:.6g}: {}", second.t, second.status);
 }

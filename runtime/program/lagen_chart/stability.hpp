@@ -8,9 +8,8 @@
 /// Its argument is the file of a StabilityRequest; it answers a StabilityAnswer (stability_request.hpp).
 ///
 /// A column is looked at along its motion by Dop853 with tolerance 1e-9 first, up to the time `reached`: omega is the
-/// largest imaginary part of an eigenvalue of the Jacobian along it; scale the largest |f(x,
-/// y) - f(x, 0)|, which is the kinetic energy where f is the energy, or |f| where that is 0. Of a run with f_0 at its
-/// start
+/// largest imaginary part of an eigenvalue of the Jacobian along it; scale the largest |f(x, y) - f(x, 0)|, which is
+/// the kinetic energy where f is the energy, or |f| where that is 0. Of a run with f_0 at its start
 ///   error is the largest |f - f_0| / scale,
 ///   drift how far the least and the largest f of the last third of the steps, the one that moved more, are from those
 ///   of the first third, over scale and the time between the two.

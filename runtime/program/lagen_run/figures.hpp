@@ -53,7 +53,7 @@ class Figures {
     [[nodiscard]] bool sums() const noexcept { return balances_; }
 
     /// The motion over a time h from t0 on, inside(x) its state at t0 + x h: the work of the power, by Gauss' formula
-    /// with so many nodes.
+    /// with so many nodes. It is asked for only where `sums` says so.
     template <class Inside>
     void sum(std::size_t nodes, const M& model, double t0, double h, const Inside& inside) requires(HasPower<M>)
     {
