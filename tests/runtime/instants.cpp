@@ -238,3 +238,58 @@ TEST_CASE("a function that stays at zero for a while crosses where it goes on, a
             CHECK(times_of(back, direction, method).empty());
     });
 }
+
+TEST_CASE("a function that is zero for a while from a start or a jump on crosses where it leaves zero")
+{
+    const BallRequest below{.direction = Crossing::falling,
+                            .when = [](double, const BallState& s) { return std::min(s[0], 0.0); },
+                            .jump = [](double, const BallState& s) { return BallState(s[0], -s[1] / 2); }};
+    const BallRequest lift{.direction = Crossing::rising,
+                           .when = [](double t, const BallState&) { return t - 0.3; },
+                           .jump = [](double, const BallState&) { return BallState(0.5, -1); }};
+    const BallRequest clock{.when = [](double t, const BallState&) { return t - 0.4; }};
+    const double fall = (std::sqrt(1 + gravity) - 1) / gravity, flight = std::sqrt(1 + gravity) / gravity;
+    with_every_method([&](const auto& method) {
+        const auto times = [&](const BallState& start, const std::vector<BallRequest>& events, double end) {
+            std::vector<double> found;
+            const auto run = integrate(Ball{}, start, {0.0, end}, method, {.events = events});
+            CHECK(run.status() == Status::ok);
+            for (const auto& each : run.events) found.push_back(each.t);
+            return found;
+        };
+        const auto thrown_down = times(BallState(0.5, -1), {below, clock}, 0.6);
+        REQUIRE(thrown_down.size() == 3);
+        CHECK_THAT(thrown_down[0], Catch::WithinAbs(fall, 1e-9));
+        CHECK_THAT(thrown_down[2], Catch::WithinAbs(fall + flight, 1e-9));
+        const auto lifted = times(BallState(0.8, 0), {below, lift, clock}, 0.6);
+        REQUIRE(lifted.size() == 3);
+        CHECK_THAT(lifted[2], Catch::WithinAbs(0.3 + fall, 1e-9));
+    });
+}
+
+TEST_CASE("jumps at multiple zeros: a motion that goes on has crossed once, one that turns back crosses again")
+{
+    with_every_method([](const auto& method) {
+        const auto cubic = [](double t, const BallState&) { return (t - 1) * (t - 1) * (t - 1); };
+        const auto stop = [](double, const BallState& s) { return BallState(s[0], 0); };
+        const std::array<BallRequest, 1> once{{{.direction = Crossing::rising, .when = cubic, .jump = stop}}};
+        const auto through = integrate(Ball{}, BallState(0, 0), {0.0, 2.0}, method, {.events = once});
+        CHECK(through.status() == Status::ok);
+        CHECK(through.events.size() == 1);
+        for (const int power : {3, 5}) {
+            const auto high = [power](double, const BallState& s) { return std::pow(s[0] - 0.25, power); };
+            const auto turn = [](double, const BallState& s) { return BallState(s[0], -s[1] / 2); };
+            const std::array<BallRequest, 1> floor{{{.direction = Crossing::falling, .when = high, .jump = turn}}};
+            const auto back = integrate(Ball{}, BallState(1.25, 0), {0.0, 1.0}, method, {.events = floor});
+            const double fall = std::sqrt(2 / gravity);
+            CHECK(back.status() == Status::ok);
+            REQUIRE(back.events.size() == 2);
+            // Its time is known as well as the function may be told from zero: (1e-10)^(1/5) = 0.01.
+            CHECK_THAT(back.events[1].t, Catch::WithinAbs(2 * fall, 3e-3));
+        }
+    });
+    // One that loses its speed falls through the zero.
+    const auto high = [](double, const BallState& s) { return s[0] * s[0] * s[0]; };
+    const auto lost = [](double, const BallState& s) { return BallState(s[0], 0); };
+    CHECK(thrown(1, 0, {{.direction = Crossing::falling, .when = high, .jump = lost}}, 1).status() == Status::zeno);
+}

@@ -95,3 +95,12 @@ TEST_CASE("events far from t = 0 have states on their zeros, and jumps lose no t
     check(Dop853{.tolerance = 1e-11});
     check(Rk4{.step = 0.005});
 }
+
+TEST_CASE("a first step is longer than the rounding of time")
+{
+    for (const double end : {1e12 + 10, 1e12 - 10}) {
+        const auto run = integrate(Clock{}, Clock::State(1, 0), {1e12, end}, Radau5{.tolerance = 1e-9});
+        CHECK(run.status() == Status::ok);
+        CHECK((run.state - Clock::State(1, 0)).norm() < 1e-5);
+    }
+}

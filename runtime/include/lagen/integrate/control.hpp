@@ -265,7 +265,8 @@ class Controller {
 };
 
 /// A first step from the sizes of s, f and a difference of f [Hairer, Norsett, Wanner II.4, algorithm of hinit], signed
-/// like `length` and no longer. One call of the right-hand side, at x = s + h f; `x` and `f1` are scratch.
+/// like `length` and no longer, and not within the rounding of t. One call of the right-hand side, at x = s + h f; `x`
+/// and `f1` are scratch.
 template <class M>
 typename M::Scalar first_step(const M& model, const StepControl& control, int order, typename M::Scalar t,
                               typename M::Scalar length, const typename M::State& s, const typename M::State& f,
@@ -292,6 +293,8 @@ typename M::Scalar first_step(const M& model, const StepControl& control, int or
               : ratio > Real(0)       ? rough_power<Real>(ratio, Real(1) / Real(order))
                                       : ratio;
     Real chosen = Real(100) * h < h1 ? Real(100) * h : h1;
+    const Real rounding = Real(32) * std::numeric_limits<Real>::epsilon() * abs(t);
+    if (chosen < rounding) chosen = rounding;
     if (!(chosen < cap)) chosen = cap;
     return sign * (chosen > Real(0) ? chosen : h);
 }

@@ -97,7 +97,9 @@ class EventValues {
             if (rates[r] != Real(0) || !(size_of(ahead_[r]) > noise_[r])) continue;
             reached_[r] = ahead;
             const Real twice = is_number(aside_[r]) ? aside_[r] : Real(2) * ahead_[r];
-            rates[r] = (Real(8) * ahead_[r] - twice) / (Real(12) * size_of(part));
+            const Real finer = Real(8) * ahead_[r] - twice, times = finer / ahead_[r];
+            // At a multiple zero the two differ: no rate is known.
+            if (times > Real(3) && times < Real(12)) rates[r] = finer / (Real(12) * size_of(part));
         }
     }
 

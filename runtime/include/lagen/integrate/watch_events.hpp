@@ -74,6 +74,7 @@ class EventWatch {
     {
         values_.evaluate(t, from, after_);
         values_.find_rates(t, from, h, rate_before_);
+        for (std::size_t r = 0; r < requests_.size(); ++r) there_[r] = values_.reached(r);
         values_.evaluate(t, to, before_);
         values_.find_rates(t, to, h, rate_);
         for (std::size_t r = 0; r < requests_.size(); ++r) {
@@ -84,8 +85,12 @@ class EventWatch {
             const Real near = std::max<Real>(Real(8) * width * size_of(h) * rate, Real(4) * size_of(after_[r]));
             const Real level = std::max<Real>(here ? near : Real(0), values_.noise(r));
             const Real least = std::max<Real>(Real(1e-8) * rate, values_.rate_noise(r));
-            set_side(r, level, least, own, !here && !own);
-            const bool known = size_of(rate_[r]) > least;
+            // Through a multiple zero, whose rates are 0, a motion goes on where a jump leaves it nearly as fast.
+            const Real ahead = there_[r], behind = values_.reached(r);
+            const bool through = rate_before_[r] == Real(0) && Real(1e3) * behind * ahead > ahead * ahead;
+            if (through) rate_[r] = behind;
+            set_side(r, level, through ? Real(0) : least, own, !here && !own);
+            const bool known = through || size_of(rate_[r]) > least;
             if (here && !known && size_of(before_[r]) <= level) sides_[r].side = crossed->side;
         }
     }
@@ -183,6 +188,7 @@ class EventWatch {
         Real level = Real(0); ///< what its values there are rounding errors of
         bool at_once = false; ///< one that goes to the other side has crossed again
         bool happens = false; ///< one that goes to the other side crosses where it is
+        bool stands = false;  ///< its value has been the same for a step
     };
 
     static Real sign(const Real& x) noexcept { return sign_of(x); }
@@ -217,10 +223,11 @@ class EventWatch {
     {
         const Side side = sides_[r];
         const Real first = std::min<Real>(Real(4) * width, last);
-        Real x = first;
+        Real x = first, stood = Real(0);
         bool beyond = false;
         for (;; x = std::min<Real>(Real(2) * x, last)) {
             after_[r] = value(x);
+            if (after_[r] == before_[r]) stood = x;
             beyond = -after_[r] * side.side > side.level;
             if (after_[r] * side.side > side.level) {
                 before_[r] = after_[r];
@@ -231,8 +238,16 @@ class EventWatch {
             if (!(x < last) || (beyond && (side.at_once || side.happens))) break;
         }
         from_[r] = x;
-        if (!beyond) return; // it has not left its zero yet
+        if (!beyond) { // it has not left its zero yet
+            sides_[r].stands = stood == last;
+            return;
+        }
         before_[r] = side.side;
+        if ((side.stands || stood > Real(1e-3)) && (side.at_once || side.happens)) {
+            from_[r] = Real(0); // it crosses where it leaves its zero, like any other
+            sides_[r] = {};
+            return;
+        }
         if (side.at_once && crosses(r)) crossed_.push_back({first, r, side.side, true});
         if (side.happens && crosses(r)) crossed_.push_back({Real(0), r, side.side});
         before_[r] = after_[r];
