@@ -49,9 +49,10 @@ ExitCode run_compile(Arguments arguments)
     if (options.help()) return ExitCode::done;
     if (!options.has("output")) throw UsageError("lagen compile: the shared object needs a name: -o FILE.so");
     if (options.has("form")) (void)options.choice("form", form_names());
-    require_writable(options.get("output"));
     const CheckedModel checked =
         load(model_path(options.positional()[0]), options.settings(), options.has("unchecked"));
+    require_apart(options, checked.model);
+    require_writable(options.get("output"));
     GenerateRequest request;
     request.form = options.has("form") ? options.get("form") : default_form(checked.model);
     std::optional<Scene> scene;

@@ -43,6 +43,85 @@ constexpr std::string_view class_scope[] = {
     "stumpff_orders",
 };
 
+/// Kernels of any form, what classes hold beside them, and arguments of their functions.
+constexpr std::string_view members[] = {
+    "rhs",
+    "jacobian",
+    "input_jacobian",
+    "variational",
+    "taylor",
+    "event_series",
+    "domain_series",
+    "flows",
+    "mass_matrix",
+    "momentum",
+    "inverse_dynamics",
+    "velocity",
+    "controls",
+    "energy",
+    "power",
+    "hamiltonian",
+    "lagrangian",
+    "ambient_velocity",
+    "reaction",
+    "moving_energy",
+    "cost",
+    "constraints",
+    "casimirs",
+    "domain",
+    "observables",
+    "invariants",
+    "lagrangian_hessian",
+    "hamiltonian_hessian",
+    "step",
+    "forward",
+    "arrow_equation",
+    "explicit_step",
+    "cayley_coordinates",
+    "algebra_matrix",
+    "in_algebra",
+    "element",
+    "algebra_element",
+    "algebra_action",
+    "algebra_bracket",
+    "events",
+    "jumps",
+    "state",
+    "parameter",
+    "input",
+    "inputs",
+    "base",
+    "fibre",
+    "k",
+    "SecondOrder",
+    "second_order",
+    "moved_by_group",
+    "step_parameter",
+    "group_order",
+    "horizontal",
+    "arrow",
+    "cayley",
+    "cayley_step",
+    "states",
+    "flow",
+    "part",
+    "out",
+    "mu",
+    "xi",
+    "eta",
+    "x",
+    "N",
+    "R",
+};
+
+bool is_member(std::string_view name)
+{
+    if (name.ends_with("dimension")) return true;
+    for (const std::string_view suffix : {"_names", "_rows", "_columns", "_values", "_sums"})
+        if (name.ends_with(suffix)) name.remove_suffix(suffix.size());
+    return std::ranges::count(members, name) + std::ranges::count(class_scope, name) > 0;
+}
+
 /// These, and those of this class.
 std::set<std::string> class_scope_names(const KernelModule& module, const std::string& class_name)
 {
@@ -123,6 +202,12 @@ void name_arguments(const KernelModule& module, LocalNames& locals)
 
 } // namespace
 
+std::string class_name(const std::string& module_name)
+{
+    const std::string spelled = cpp_names({module_name}).front();
+    return is_member(spelled) ? spelled + '_' : spelled;
+}
+
 ModuleNames name_module(const KernelModule& module)
 {
     std::vector<const std::vector<Quantity>*> lists = {&module.parameters, &module.inputs};
@@ -132,7 +217,7 @@ ModuleNames name_module(const KernelModule& module)
         for (const Quantity& quantity : *list) all.push_back(quantity.name);
     const std::vector<std::string> spelled = cpp_names(all);
     ModuleNames names;
-    names.class_name = cpp_names({module.name}).front();
+    names.class_name = class_name(module.name);
     names.locals.taken = class_scope_names(module, names.class_name);
     names.locals.inputs[module.time] = "t";
     auto next = spelled.begin();

@@ -12,4 +12,7 @@ namespace lagen {
 /// transliterated, other letters become "uXXXX"; distinct names stay distinct (a second clash gains another '_').
 [[nodiscard]] std::vector<std::string> cpp_names(const std::vector<std::string>& names);
 
+/// The name of the class of a module: no member and no argument of it is called so.
+[[nodiscard]] std::string class_name(const std::string& module_name);
+
 } // namespace lagen

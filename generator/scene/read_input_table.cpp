@@ -43,8 +43,7 @@ class InputTableReader {
     InputTableReader(const Model& model, const Scene& scene)
         : symbols_(input_symbols(model)), known_(all_names(model)), scene_(scene)
     {
-        const std::filesystem::path given(scene.input_table->path);
-        const std::string path = (std::filesystem::path(model.file->name).parent_path() / given).string();
+        const std::string path = input_table_path(model, scene);
         try {
             text_ = plain_text(path);
         } catch (const ModelError&) {
@@ -147,6 +146,12 @@ class InputTableReader {
 };
 
 } // namespace
+
+std::string input_table_path(const Model& model, const Scene& scene)
+{
+    const std::filesystem::path given(scene.input_table->path);
+    return (std::filesystem::path(model.file->name).parent_path() / given).string();
+}
 
 std::vector<std::vector<double>> read_input_table(const Model& model, const Scene& scene, const SceneValues& values,
                                                   long double end)

@@ -7,6 +7,9 @@
 
 namespace lagen {
 
+/// Where the table of a scene that has one lies.
+[[nodiscard]] std::string input_table_path(const Model& model, const Scene& scene);
+
 /// Rows t, u_1, u_2, .. of all inputs, in order of declaration; those without a column have their defaults in `values`.
 /// A path that is not absolute begins at the folder of the model file. Throws ModelError at its place in the table: no
 /// column t, a column that is no input or stands twice, a cell that is no finite number, a row of another length, times

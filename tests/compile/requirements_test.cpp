@@ -38,7 +38,7 @@ std::vector<std::string> all_headers()
 
 } // namespace
 
-TEST_CASE("every header, included first, refuses C++17 and finite mathematics by one sentence")
+TEST_CASE("every header, included first, refuses C++17, finite mathematics and macros min and max by one sentence")
 {
     const std::string finite = "lagen needs NaN and infinity, by which runs see that they fail";
     for (const char* options : {"-std=c++20 -ffast-math", "-std=c++20 -Ofast", "-std=c++20 -ffinite-math-only"}) {
@@ -46,6 +46,8 @@ TEST_CASE("every header, included first, refuses C++17 and finite mathematics by
         REQUIRE(errors.size() == 2); // and the file that is missing, at which the compiler stops
         CHECK(errors[0].find(finite) != std::string::npos);
     }
+    for (const char* macro : {"'-Dmin(a,b)=a'", "'-Dmax(a,b)=a'"})
+        CHECK(errors_of("integrate.hpp", std::string("-std=c++20 ") + macro)[0].find("NOMINMAX") != std::string::npos);
     for (const std::string& header : all_headers()) {
         INFO(header);
         const auto errors = errors_of(header, "-std=c++17");

@@ -152,7 +152,7 @@ std::vector<CompiledCase> all_cases()
             sampled(operators_module(), 3),
             sampled(batches_module(), 9),
             sampled(columns_module(), 10),
-            sampled(solve_module("arrow", arrow, MatrixStructure::positive_definite), 4),
+            sampled(solve_module("arrowhead", arrow, MatrixStructure::positive_definite), 4),
             sampled(solve_module("definite", full(5), MatrixStructure::positive_definite), 5),
             sampled(solve_module("pivoted", full(4), MatrixStructure::general), 6),
             sampled(solve_module("pivoted_symmetric", full(3), MatrixStructure::symmetric), 7),

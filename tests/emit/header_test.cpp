@@ -5,6 +5,10 @@
 #include "hand_built.hpp"
 
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
 
 using namespace lagen;
 using namespace lagen::testing;
@@ -24,7 +28,7 @@ TEST_CASE("a definite matrix is factorised in the order of least fill", "[emit]"
     // an arrow that points up: elimination from the front would fill the whole matrix
     const std::vector<std::vector<bool>> arrow{
         {true, true, true, true}, {true, true, false, false}, {true, false, true, false}, {true, false, false, true}};
-    check_golden("arrow.hpp", print_header(solve_module("arrow", arrow, MatrixStructure::positive_definite)));
+    check_golden("arrowhead.hpp", print_header(solve_module("arrowhead", arrow, MatrixStructure::positive_definite)));
 }
 
 TEST_CASE("a matrix of unknown definiteness goes to pivoted LU, one of order two to the closed form", "[emit]")
@@ -170,6 +174,31 @@ TEST_CASE("a name that is a macro behind a header, or in the headers of C and PO
     }
     CHECK(::pclose(compiler) == 0);
     CHECK(count > 1000);
+}
+
+TEST_CASE("a class is called like no member, no argument and no variable of any generated one", "[emit]")
+{
+    CHECK(class_name("pendulum") == "pendulum");
+    CHECK(class_name("energy") == "energy_");
+    const std::regex declared(R"( (\w+)(\(| = |;|\[\]))"), argument(R"([ &](\w+)[,)])");
+    std::set<std::string> names;
+    for (const auto& header : std::filesystem::directory_iterator(LAGEN_SOURCE_DIR "/generated")) {
+        std::ifstream text(header.path());
+        for (std::string line; std::getline(text, line);) {
+            const bool member = line.starts_with("    [[nodiscard]]") || line.starts_with("    static constexpr") ||
+                                line.starts_with("    void ");
+            if (!member) continue;
+            line = std::regex_replace(line, std::regex(R"("[^"]*")"), "");
+            for (const std::regex* form : {&declared, &argument})
+                for (std::sregex_iterator each(line.begin(), line.end(), *form), end; each != end; ++each)
+                    names.insert((*each)[1]);
+        }
+    }
+    CHECK(names.count("observables_names") == 1);
+    for (const std::string& name : names) {
+        INFO(name);
+        CHECK(class_name(name) != name);
+    }
 }
 
 TEST_CASE("shared terms avoid the names of the model", "[emit]")

@@ -92,7 +92,7 @@ std::vector<MethodFamily> method_families(const ChartProblem& problem, const std
         family.text = {problem.header,
                        main_with("points", fmt::format("chart_points<lagen::models::{}<double>{}>({{{}}}, argc, "
                                                        "argv)",
-                                                       cpp_names({problem.module.name})[0], types, names))};
+                                                       class_name(problem.module.name), types, names))};
         list.push_back(std::move(family));
     }
     return list;
@@ -113,7 +113,7 @@ std::vector<MethodFamily> peer_families(const ChartProblem& problem, std::vector
             if (method != nullptr) family.methods.push_back({method, true});
         family.text = {problem.header,
                        main_with(peer.name, fmt::format("chart_peer<lagen::models::{}<double>>(argc, argv)",
-                                                        cpp_names({problem.module.name})[0])),
+                                                        class_name(problem.module.name))),
                        split_list(peer.libraries)};
         list.push_back(std::move(family));
     }

@@ -117,7 +117,7 @@ std::vector<ProgramText> reference_programs(const ChartProblem& problem)
             "#include \"lagen_chart/quad.hpp\"\n#include \"model.hpp\"\n#include \"lagen_chart/reference.hpp\"\nint "
             "main(int argc, char** argv)\n{{\n    return lagen::chart_reference<lagen::models::{}<lagen::Quad>, "
             "lagen::{}>(argc, argv);\n}}\n",
-            cpp_names({problem.module.name})[0], find_method(method)->type);
+            class_name(problem.module.name), find_method(method)->type);
         programs.push_back({problem.header, text, {"-lquadmath"}});
     }
     return programs;

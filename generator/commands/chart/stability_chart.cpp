@@ -96,7 +96,7 @@ ProgramText program_of(const ChartProblem& problem, const MethodGroup& methods)
                      fmt::format("#include \"model.hpp\"\n#include \"lagen_chart/stability.hpp\"\nint main(int argc, "
                                  "char** argv)\n{{\n    return lagen::chart_stability<lagen::models::{}<double>{}>"
                                  "({{{}}}, argc, argv);\n}}\n",
-                                 cpp_names({problem.module.name})[0], types, names)};
+                                 class_name(problem.module.name), types, names)};
     text.options = rounding_options();
     return text;
 }

@@ -97,7 +97,7 @@ ProgramText stepping_program(const Generated& generated, const char* name)
         fmt::format("#include \"model.hpp\"\n#include \"lagen_chart/discrete_stability.hpp\"\nint "
                     "main(int argc, char** argv)\n{{\n    return "
                     "lagen::chart_discrete_stability<lagen::models::{}<double>>(\"{}\", argc, argv);\n}}\n",
-                    cpp_names({generated.module.name})[0], name)};
+                    class_name(generated.module.name), name)};
     text.options = rounding_options();
     return text;
 }

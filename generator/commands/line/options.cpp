@@ -3,6 +3,7 @@
 
 #include "commands/machine/write_file.hpp"
 #include "model/families.hpp"
+#include "scene/read_input_table.hpp"
 
 #include <boost/program_options.hpp>
 #include <fmt/core.h>
@@ -230,6 +231,8 @@ void require_apart(const Options& options, const Model& model, std::initializer_
 {
     std::vector<std::string> read{model.file->name};
     for (const auto& file : model.included) read.push_back(file->name);
+    for (const Scene& scene : model.scenes)
+        if (scene.input_table) read.push_back(input_table_path(model, scene));
     for (const char* name : also)
         if (options.has(name)) read.push_back(options.get(name));
     require_other_files(options, read);

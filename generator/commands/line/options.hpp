@@ -71,8 +71,8 @@ class Options {
     std::vector<std::pair<std::string, std::string>> given_;
 };
 
-/// UsageError where a file that is written (--output, --plot, --depfile) is the model, one that it includes, or one of
-/// the options `also`.
+/// UsageError where a file that is written (--output, --plot, --depfile) is the model, one that it includes, a table of
+/// its scenes, or one of the options `also`.
 void require_apart(const Options& options, const Model& model, std::initializer_list<const char*> also = {});
 /// The same of a morphism, its stages and its models.
 void require_apart(const Options& options, const MorphismFile& morphism);

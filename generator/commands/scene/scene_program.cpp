@@ -62,13 +62,13 @@ std::string program_text(const Driver& driver, const std::string& name, const Me
     const std::string type = reversible ? fmt::format("Reversible<lagen::{}>", method.type) : method.type;
     return fmt::format("#include \"model.hpp\"\n#include \"{}/driver.hpp\"\nint main(int argc, char** argv)\n{{\n"
                        "    return lagen::{}<lagen::models::{}<double>, lagen::{}>(argc, argv);\n}}\n",
-                       driver.folder, driver.function, cpp_names({name})[0], type);
+                       driver.folder, driver.function, class_name(name), type);
 }
 
 std::string model_text(const std::string& name, bool packs)
 {
     return fmt::format("#include \"lagen/export_model.hpp\"\n#include \"model.hpp\"\n{}(lagen::models::{})\n",
-                       packs ? "LAGEN_EXPORT_MODEL_WITH_PACKS" : "LAGEN_EXPORT_MODEL", cpp_names({name})[0]);
+                       packs ? "LAGEN_EXPORT_MODEL_WITH_PACKS" : "LAGEN_EXPORT_MODEL", class_name(name));
 }
 
 TableNames names_of(const Model& model, const KernelModule& module)

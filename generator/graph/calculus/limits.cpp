@@ -84,7 +84,9 @@ std::optional<Rational> Limits::order_of(NodeId node) const
         const auto p = real_exponent(graph_, node);
         return p ? Rational(std::max(Rational(0), *p) * order(0).value_or(1)) : order(0).value_or(1);
     }
-    case Op::multiply: return order(0) && order(1) ? std::optional(Rational(*order(0) + *order(1))) : std::nullopt;
+    case Op::multiply: // where one factor vanishes the other need not
+        if (!order(0) || !order(1)) return std::nullopt;
+        return *order(0) == 0 ? *order(1) : *order(1) == 0 ? *order(0) : *least(0, 1);
     case Op::divide: return order(1) ? order(0) : std::nullopt;
     case Op::add:
     case Op::minimum: return least(0, 1);
@@ -105,6 +107,17 @@ Rational Limits::own_exponent(NodeId node) const
     return std::min(Rational(1), Rational(*p * orders_[graph_.operands(node)[0]].value_or(1)));
 }
 
+/// A root that goes to 0 faster than the distance has the derivative 0 there: (x^4 + y^4)^(1/2).
+bool Limits::is_flat_root(NodeId node) const
+{
+    const Op op = graph_.op(node);
+    if ((op != Op::sqrt && op != Op::real_power) || divides_[node]) return false;
+    const NodeId radicand = graph_.operands(node)[0];
+    const auto p = real_exponent(graph_, node);
+    const auto order = orders_[radicand];
+    return !divides_[radicand] && !is_rough(radicand) && p && *p < 1 && order && *p * *order > 1;
+}
+
 /// Of a node whose operands have theirs: a radicand that changes its sign ends where it vanishes.
 Rational Limits::exponent_of(NodeId node) const
 {
@@ -117,7 +130,7 @@ Rational Limits::exponent_of(NodeId node) const
     const bool root = op == Op::sqrt || op == Op::real_power;
     if ((!root && op != Op::abs) || divides_[node] || divides_[operands[0]]) return least;
     const auto order = orders_[operands[0]];
-    if (order == Rational(0) || (root && !order)) return least;
+    if (order == Rational(0) || (root && !order) || is_flat_root(node)) return least;
     const Rational own = own_exponent(node);
     return std::min(own, least <= 1 && root ? Rational(least * own) : least);
 }
@@ -200,6 +213,7 @@ NodeId Limits::contribution(NodeId node, std::size_t k, NodeId tangent)
     if (k == 0 && (op == Op::sqrt || op == Op::abs || op == Op::real_power))
         if (const auto flat = flat_where(graph_.operands(node)[0], deepest_walk))
             return graph_.select(*flat, graph_.constant(0), rule(graph_, node, k, tangent));
+    if (k == 0 && is_flat_root(node)) return where_not_zero(graph_.operands(node)[0], rule(graph_, node, k, tangent));
     if (!needs_limit(node, k)) return rule(graph_, node, k, tangent);
     switch (op) {
     case Op::multiply: return where_not_zero(graph_.operands(node)[1 - k], rule(graph_, node, k, tangent));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Derivatives where a function has one and the chain rule says 0/0 or 0 inf: of v |v|, v sqrt(v^2 + w^2),
-/// (x^2 + y^2)^(3/2), |x|^p at 0, and of sqrt(max(0, f)) where f < 0.
+/// (x^2 + y^2)^(3/2), |x|^p, (x^4 + y^4)^(1/2) at 0, and of sqrt(max(0, f)) where f < 0.
 /// Roots and moduli have no derivative at some of their zeros, but |v - v0| <= C h^q there, q <= 1. Where u vanishes,
 /// |u| <= C h^p (p = 1 of what has a derivative), and p + q > 1, the product has the derivative u' v at this point: the
 /// other term u v' of the rule is 0 there, and is written select(u == 0, 0, u v'). With p + q <= 1 nothing is known,
@@ -36,6 +36,7 @@ class Limits {
     [[nodiscard]] std::optional<Rational> order_of(NodeId node) const;
     [[nodiscard]] Rational exponent_of(NodeId node) const;
     [[nodiscard]] Rational own_exponent(NodeId node) const;
+    [[nodiscard]] bool is_flat_root(NodeId node) const;
     [[nodiscard]] bool is_rough(NodeId node) const { return exponents_[node] <= 1; }
     [[nodiscard]] bool needs_limit(NodeId node, std::size_t k) const;
     [[nodiscard]] std::optional<NodeId> flat_where(NodeId node, int depth);

@@ -26,7 +26,13 @@ NodeId Graph::apply(Op op, NodeId a)
     if (const auto known = rules::special_value(*this, op, a)) return *known;
     if (op == Op::abs && (ops_[a] == Op::abs || ops_[a] == Op::sqrt)) return a;
     if (op == Op::abs && ops_[a] == Op::negate) return apply(op, operands(a)[0]);
-    if (op == Op::sqrt && ops_[a] == Op::power && payloads_[a] == 2) return apply(Op::abs, operands(a)[0]);
+    if (ops_[a] == Op::power && (op == Op::abs || op == Op::sqrt)) {
+        // |x^n| = |x|^n, x^n where n is even; sqrt(x^2n) = |x^n|
+        const auto n = static_cast<std::int32_t>(payloads_[a]);
+        const NodeId base = operands(a)[0];
+        if (op == Op::abs) return n % 2 == 0 ? a : power(apply(Op::abs, base), n);
+        if (n % 2 == 0) return apply(Op::abs, power(base, n / 2));
+    }
     const NodeId only[] = {a};
     return intern(op, only, 0);
 }

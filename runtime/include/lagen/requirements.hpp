@@ -8,6 +8,11 @@
 #include "lagen/that_is_all"
 #endif
 
+#if defined(min) || defined(max)
+#error "lagen: min or max is a macro here: define NOMINMAX before <windows.h>, or include lagen's headers first"
+#include "lagen/that_is_all"
+#endif
+
 #if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
 #error "lagen needs NaN and infinity, by which runs see that they fail: leave out -ffast-math and -Ofast"
 #include "lagen/that_is_all"
