@@ -270,7 +270,7 @@ Generated generate(const CheckedModel& checked, const GenerateRequest& request)
     module.warnings = warnings_of(checked, kernels.form);
     if (request.scene == nullptr)
         module.equations = readable_equations(checked, kernels.form, module.derive);
-    else
+    else if (!request.keeps_values)
         forget_values(module);
     const Activity activity("writing the header");
     generated.header = print_header(module);

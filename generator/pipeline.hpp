@@ -60,7 +60,8 @@ struct GenerateRequest {
     Tree time_scale = nullptr;        ///< as in KernelRequest
     std::string output;               ///< the file that the header is for; empty: one that bears the model's name
     bool report = false;              ///< what simplification tried
-    const Scene* scene = nullptr;     ///< for `run`: this scene's events and observed expressions, defaults and hash 0
+    const Scene* scene = nullptr;     ///< with this scene's events and observed expressions
+    bool keeps_values = false;        ///< of a scene: else defaults and hash are 0, for a program that is told them
 };
 
 /// The header text, and the module that it was printed from.

@@ -65,6 +65,7 @@ ExitCode run_compile(Arguments arguments)
     for (const std::string& warning : warnings_of(checked, request.form))
         write_standard_error(fmt::format("warning: {}\n", warning));
     if (scene) request.scene = &*scene;
+    request.keeps_values = true;
     request.with = split_list(options.get("with"));
     Generated generated = generate(checked, request);
     ProgramText text{std::move(generated.header), model_text(generated.module.name, true)};

@@ -2,6 +2,7 @@
 #include "linear/linear_system.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lagen::linear {
 
@@ -23,12 +24,23 @@ bool has_full_rank(const Complex& M)
     return values.minCoeff() > rank_tolerance * values.maxCoeff();
 }
 
-/// Columns as long as `length`, but those that are 0.
-Matrix with_length(Matrix M, double length)
+/// Powers of 2 d with which rows and columns of diag(d)^-1 A diag(d) are of one size. [Parlett and Reinsch 1969]
+Eigen::VectorXd balance(Matrix A)
 {
-    for (Eigen::Index k = 0; k < M.cols(); ++k)
-        if (const double norm = M.col(k).norm(); norm > 0) M.col(k) *= length / norm;
-    return M;
+    Eigen::VectorXd units = Eigen::VectorXd::Ones(A.rows());
+    for (bool changed = A.allFinite(); changed;) {
+        changed = false;
+        for (Eigen::Index k = 0; k < A.rows(); ++k) {
+            const double diagonal = std::abs(A(k, k)), column = A.col(k).lpNorm<1>() - diagonal,
+                         row = A.row(k).lpNorm<1>() - diagonal;
+            if (!(column > 0 && row > 0)) continue;
+            const double factor = std::exp2(std::round(std::log2(row / column) / 2));
+            if (!(column * factor + row / factor < 0.9 * (column + row))) continue;
+            A.col(k) *= factor, A.row(k) /= factor, units[k] *= factor;
+            changed = true;
+        }
+    }
+    return units;
 }
 
 Complex shifted(const LinearSystem& system, Eigenvalue lambda)
@@ -36,6 +48,34 @@ Complex shifted(const LinearSystem& system, Eigenvalue lambda)
     Complex M = system.A.cast<Eigenvalue>();
     M.diagonal().array() -= lambda;
     return M;
+}
+
+/// (A - lambda) T in the units of the system, T an orthonormal basis of the leaf there; `rows` has what divides rows so
+/// that each is beside the size of what it is a sum of: what rounding leaves of a row that vanishes stays small.
+struct Pencil {
+    Complex values;       ///< diag(rows) (A - lambda) basis
+    Matrix basis;         ///< D T
+    Eigen::VectorXd rows; ///< of vectors
+};
+
+Pencil pencil(const LinearSystem& system, Eigenvalue lambda)
+{
+    const auto& D = system.units;
+    Pencil out{{}, Matrix::Identity(D.size(), system.leaf.cols()), {}};
+    const Matrix scaled = D.cwiseInverse().asDiagonal() * system.leaf;
+    if (scaled.size() > 0) out.basis.applyOnTheLeft(scaled.householderQr().householderQ());
+    out.basis.applyOnTheLeft(D.asDiagonal().toDenseMatrix());
+    out.rows = (system.A * D.asDiagonal()).cwiseAbs().rowwise().sum() + std::abs(lambda) * D;
+    for (double& row : out.rows) row = row > 0 ? 1 / row : 1;
+    out.values = out.rows.asDiagonal() * shifted(system, lambda) * out.basis;
+    return out;
+}
+
+/// Columns of length 1, but those that are 0.
+Complex unit_columns(Matrix M)
+{
+    for (Eigen::Index k = 0; k < M.cols(); ++k) M.col(k).normalize();
+    return M.cast<Eigenvalue>();
 }
 
 /// The first of the entries that are largest becomes 1; what is nothing beside it becomes 0.
@@ -89,7 +129,8 @@ std::vector<Eigen::VectorXcd> eigenvectors(const LinearSystem& system, const Mul
 LinearSystem linear_system(Matrix A, Matrix B, const Matrix& slopes)
 {
     const Eigen::Index n = A.rows();
-    LinearSystem system{std::move(A), std::move(B), Matrix::Identity(n, n), Matrix(n, 0)};
+    Eigen::VectorXd units = balance(A);
+    LinearSystem system{std::move(A), std::move(B), Matrix::Identity(n, n), Matrix(n, 0), std::move(units)};
     if (slopes.rows() == 0) return system;
     Eigen::JacobiSVD<Matrix> svd(slopes, Eigen::ComputeFullV);
     svd.setThreshold(rank_tolerance);
@@ -118,18 +159,17 @@ double LinearSystem::size() const
 
 bool LinearSystem::is_reached(Eigenvalue lambda) const
 {
-    const Eigen::Index n = A.rows(), k = leaf.cols(), m = B.cols();
-    Complex M(n, k + m + normal.cols());
-    M << shifted(*this, lambda) * leaf, with_length(B, size()).cast<Eigenvalue>(),
-        with_length(normal, size()).cast<Eigenvalue>();
+    const auto [values, basis, rows] = pencil(*this, lambda);
+    Complex M(A.rows(), values.cols() + B.cols() + normal.cols());
+    M << values, unit_columns(rows.asDiagonal() * B), unit_columns(rows.asDiagonal() * normal);
     return has_full_rank(M);
 }
 
 bool LinearSystem::is_seen(Eigenvalue lambda, const Matrix& Q) const
 {
-    const double weight = Q.norm();
+    const auto [values, basis, rows] = pencil(*this, lambda);
     Complex M(2 * A.rows(), leaf.cols());
-    M << shifted(*this, lambda) * leaf, ((weight > 0 ? size() / weight : 1) * Q * leaf).cast<Eigenvalue>();
+    M << values, unit_columns((Q * basis).transpose()).transpose();
     return has_full_rank(M);
 }
 

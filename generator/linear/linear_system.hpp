@@ -2,8 +2,9 @@
 /// Linear equations s' = A s + B u in numbers, s of n entries and u of m, on the leaf N^T s = 0 that their motions
 /// keep.
 ///
-/// A rank counts singular values above 1e-9 of the largest, with the columns of B and N as long as A is.
-/// [Hautus 1969; Sontag 1998]
+/// A rank counts singular values above 1e-9 of the largest, in units in which A is balanced, each row beside its own
+/// terms and the columns of B and N of length 1: units of states, times and inputs are nothing. [Hautus 1969; Sontag
+/// 1998]
 #pragma once
 
 #include <Eigen/Dense>
@@ -21,9 +22,10 @@ using Eigenvalue = std::complex<double>;
 [[nodiscard]] std::vector<Eigenvalue> eigenvalues(const Matrix& A);
 
 struct LinearSystem {
-    Matrix A, B;   ///< shapes (n, n), (n, m)
-    Matrix leaf;   ///< T, shape (n, k): an orthonormal basis of the leaf
-    Matrix normal; ///< N, shape (n, n - k): one of what is orthogonal to it
+    Matrix A, B;           ///< shapes (n, n), (n, m)
+    Matrix leaf;           ///< T, shape (n, k): an orthonormal basis of the leaf
+    Matrix normal;         ///< N, shape (n, n - k): one of what is orthogonal to it
+    Eigen::VectorXd units; ///< of the states, powers of 2 that balance A
 
     [[nodiscard]] double size() const; ///< |A|, 1 of 0
 

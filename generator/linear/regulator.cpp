@@ -10,7 +10,8 @@ namespace {
 
 using Complex = Eigen::MatrixXcd;
 
-constexpr double axis_tolerance = 1e-9; ///< of |A|: a real part below it is none
+/// A real part below the first of its eigenvalue, or the second of |A|, is none.
+constexpr double axis_tolerance = 1e-9, rounding_tolerance = 1e-14;
 
 /// A^T P + P A - P G P + Q = 0.
 struct Riccati {
@@ -85,9 +86,9 @@ bool decays(const std::vector<Eigenvalue>& values, Eigen::Index size)
 std::variant<Regulator, NoRegulator> regulator(const LinearSystem& system, const std::vector<Mode>& modes,
                                                const Matrix& Q, const Matrix& R)
 {
-    const double axis = axis_tolerance * system.size();
     for (const Mode& mode : modes) {
-        const double real = mode.eigenvalue.real();
+        const double real = mode.eigenvalue.real(),
+                     axis = std::max(axis_tolerance * mode.frequency(), rounding_tolerance * system.size());
         if (real >= -axis && !mode.reached) return NoRegulator{NoRegulator::Reason::not_reached, mode.eigenvalue};
         if (std::abs(real) <= axis && !system.is_seen(mode.eigenvalue, Q))
             return NoRegulator{NoRegulator::Reason::not_seen, mode.eigenvalue};

@@ -66,6 +66,8 @@ TEST_CASE("rows are compared up to the earlier end, those of an event row by row
     CHECK(told(whole, "0,1,0\n1,1,0\n1.7,9,0\n").starts_with("error of the state: about 0 "));
     CHECK(told("0,1,0\n1,1,0\n1.7,9,0\n", whole).starts_with("error of the state: about 0 "));
     CHECK(told(whole, "0,1,0\n") == "nothing");
+    CHECK(told("2,1,0\n", "2,1,0\n").starts_with("error of the state: about 0 ")); // the only row that was asked for
+    CHECK(told("0,0,1\n1,0,1\n", "0,0,1\n1,1e-18,1\n").starts_with("error of the state: about 0 "));
     CHECK(told("", "") == "nothing");
     CHECK(told("0,1,0\n0.3,1,0\n", "0,1,0\n0.30000000000000004,1,0\n").starts_with("error of the state: about 0 "));
     CHECK(

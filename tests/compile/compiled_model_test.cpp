@@ -71,6 +71,27 @@ TEST_CASE("a compiled model has the bits of its header, takes no memory in a ste
           "nystrom refused not_separable\n");
 }
 
+TEST_CASE("a program in C calls a compiled model, whose scene keeps the values and the hash of the model")
+{
+    const std::string folder = std::string(LAGEN_BINARY_DIR) + "/compiled/in_c/";
+    std::filesystem::create_directories(folder);
+    const std::string page = read_text(LAGEN_SOURCE_DIR "/docs/compiled_models.md");
+    const std::size_t begin = page.find("```c\n") + 5;
+    std::ofstream(folder + "top.c") << page.substr(begin, page.find("```", begin) - begin);
+    const std::string lagen = "'" LAGEN_PROGRAM "' compile '" LAGEN_SOURCE_DIR "/models/heavy_top.toml' ";
+    const Shell made =
+        run_shell("cd '" + folder +
+                  "' && cc -std=c99 -Wall -Wextra -Wpedantic -Werror -I'" LAGEN_SOURCE_DIR "/runtime/include' top.c " +
+                  "-o top -ldl 2>&1 && " + lagen + "-o top.so 2>&1 && ./top ./top.so && " + lagen +
+                  "--scene drop -o top.so 2>&1 && ./top ./top.so");
+    INFO(made.output);
+    REQUIRE(made.status == 0);
+    const std::string half = made.output.substr(made.output.size() / 2);
+    CHECK_THAT(half, Catch::StartsWith("heavy_top ") && Catch::EndsWith("mgl = 1.7, status 0, dw1/dt = -0.136\n"));
+    CHECK(made.output == half + half);
+    CHECK_THAT(half, !Catch::Contains(" 0000000000000000 "));
+}
+
 TEST_CASE("Taylor's method over compiled models has the bits of their classes, and takes no memory in a step")
 {
     const std::string folder = std::string(LAGEN_BINARY_DIR) + "/compiled/compiled_series/";

@@ -81,6 +81,25 @@ TEST_CASE("two equal oscillators that one force pushes alike are not reached in 
     }
 }
 
+TEST_CASE("inputs reach modes of any size, in any units")
+{
+    Matrix A = Matrix::Zero(4, 4), B(4, 1); // x'' = u - x, q'' = s u - s^2 q - s q'
+    for (const double s : {1.0, 1e3, 1e6, 1e9, 1e12}) {
+        for (const double unit : {1.0, 1e-9, 1e9}) {
+            for (const double push : {0.0, 1.0}) {
+                A << 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 0, unit, 0, 0, -s * s / unit, -s;
+                B << 0, push, 0, s;
+                const LinearSystem system = with_input(A, B);
+                INFO(s << ", " << unit);
+                CHECK(system.is_reached({0, 1}) == (push > 0));
+                CHECK(system.is_reached(s * Eigenvalue(-0.5, std::sqrt(0.75))));
+                const Matrix sees = Eigen::Vector4d(push, 0, 1, 0).asDiagonal();
+                CHECK(system.is_seen({0, 1}, sees) == (push > 0));
+            }
+        }
+    }
+}
+
 TEST_CASE("on a leaf what points off it need not be reached")
 {
     Matrix A = Matrix::Zero(3, 3), B(3, 1), slope(2, 3);

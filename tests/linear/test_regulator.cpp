@@ -127,4 +127,9 @@ TEST_CASE("what cannot be stabilised, or costs nothing, has no regulator")
     CHECK(std::get<Regulator>(gain_of(mixed, Matrix::Identity(2, 2).col(0), Matrix::Identity(2, 2), one(1)))
               .closed_loop[0]
               .real() == Approx(-std::sqrt(2.0)));
+    // Nor is one that decays slowly beside others.
+    const Matrix stiff = Eigen::Vector3d(1, -1, -1e9).asDiagonal();
+    CHECK(std::get<Regulator>(gain_of(stiff, Matrix::Identity(3, 3).col(0), Matrix::Identity(3, 3), one(1)))
+              .closed_loop[1]
+              .real() == Approx(-std::sqrt(2.0)));
 }

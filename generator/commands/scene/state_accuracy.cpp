@@ -11,7 +11,8 @@ namespace lagen {
 
 namespace {
 
-constexpr double lost = 1e-2; ///< of the size of the states: no digit is left
+constexpr double lost = 1e-2;        ///< of the size of the states: no digit is left
+constexpr double rounding = 0x1p-53; ///< of it: no double is nearer
 
 /// Steps of half the length come to the same time but for rounding.
 bool is_same_time(double a, double b)
@@ -43,7 +44,8 @@ std::optional<StateAccuracy> accuracy_of(const Table& run, const Table& second, 
     }
     if (distances.empty()) return std::nullopt;
     const double most = *std::ranges::max_element(distances);
-    if (!by_number && distances.size() == 1 && most == 0) return std::nullopt; // the start, it seems
+    // One of more rows alone, and the same in both, is the start.
+    if (!by_number && distances.size() == 1 && most == 0 && run.count() + second.count() > 2) return std::nullopt;
     StateAccuracy accuracy{most > 0 ? most / size : 0};
     const auto first = std::ranges::find_if(distances, [&](double each) { return each > lost * size; });
     if (first != distances.end())
@@ -53,7 +55,8 @@ std::optional<StateAccuracy> accuracy_of(const Table& run, const Table& second, 
 
 std::string text_of(const StateAccuracy& accuracy)
 {
-    if (!accuracy.holds_until) return "error of the state: about " + one_digit(accuracy.estimate);
+    const double known = accuracy.estimate < rounding ? 0 : accuracy.estimate;
+    if (!accuracy.holds_until) return "error of the state: about " + one_digit(known);
     return fmt::format("digits hold until t = {:.6g}", *accuracy.holds_until);
 }
 

@@ -5,6 +5,8 @@
 
 #include <fmt/core.h>
 
+#include <cctype>
+
 namespace lagen {
 
 void require_analytic(const Graph& graph, std::span<const NodeId> functions, std::span<const NodeId> coordinates,
@@ -27,7 +29,9 @@ void require_analytic(const Graph& graph, std::span<const NodeId> functions, std
         const Operator& row = operator_of(graph.op(id));
         const bool smooth = row.smoothness != Smoothness::kinked && row.smoothness != Smoothness::stepped &&
                             row.smoothness != Smoothness::chosen;
-        if (moves[id] && !smooth) refuse(std::string(row.name) + "()");
+        if (!moves[id] || smooth) continue;
+        const bool is_word = std::isalpha(static_cast<unsigned char>(row.name[0])) != 0;
+        refuse(is_word ? std::string(row.name) + "()" : fmt::format("the comparison '{}'", row.name));
     }
 }
 

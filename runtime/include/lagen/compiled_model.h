@@ -37,8 +37,8 @@ extern "C" {
 #define LAGEN_COMPILED_MODEL_MACHINE "base"
 #endif
 
-/* A function of time and state with `rows` x `columns` values, stored column by column; `names` of its entries, or 0.
- */
+/* A function of time and state with `rows` x `columns` values, stored column by column; `names`
+ * of its rows, of `jumps` those of its columns, or 0. */
 typedef struct lagen_values {
     const char* name; /* of the kernel: "energy", "observables", "events", "jumps", .. */
     int32_t rows;
