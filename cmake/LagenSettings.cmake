@@ -24,9 +24,10 @@ target_compile_options(lagen_settings INTERFACE -Wall -Wextra -Wpedantic -Wconve
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 14)
   target_compile_options(lagen_settings INTERFACE -Wno-restrict -Wno-stringop-overread)
 endif()
-# What g++ says of a class with a member from an anonymous namespace is meant for headers.
+# What g++ says of a class with a member from an anonymous namespace is meant for headers. Its collector is left out up to a
+# gigabyte, which the largest units reach: a tenth of the time for a quarter more memory.
 if(LAGEN_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  target_compile_options(lagen_settings INTERFACE -Wno-subobject-linkage)
+  target_compile_options(lagen_settings INTERFACE -Wno-subobject-linkage --param=ggc-min-heapsize=1048576)
 endif()
 if(LAGEN_SANITIZE)
   target_compile_options(lagen_settings INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)

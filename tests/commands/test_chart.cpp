@@ -205,7 +205,7 @@ TEST_CASE("the distance of two tables is that of their rows, relative to the sec
     CHECK(lagen::table_distance({{"t", "x"}, {0, 0.25}}, {{"t", "x"}, {0, 0}}) == 0.25);
 }
 
-TEST_CASE("the errors of a chart are those of lagen run against 28 digits", "[chart]")
+TEST_CASE("the errors of a chart are those of lagen run against 28 digits", "[chart][all]")
 {
     const std::string folder = fresh_folder();
     const json::Value exact = json::read_file(LAGEN_SOURCE_DIR "/tests/data/continuous/rigid_body_near_axis1.json");

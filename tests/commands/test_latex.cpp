@@ -42,10 +42,10 @@ TEST_CASE("the LaTeX of a model is in order, of one form after the other", "[lon
 {
     std::size_t k = 0, found = 0;
     for (const std::string& model : example_models()) {
+        if (k % 4 == 0) found += check_latex(model, "variations") ? 1U : 0U;
         found += check_latex(model, forms[k++ % forms.size()]) ? 1U : 0U;
-        found += check_latex(model, "variations") ? 1U : 0U;
     }
-    CHECK(found > 60);
+    CHECK(found > 40);
 }
 
 TEST_CASE("the LaTeX of every model is in order, of each form", "[all]")

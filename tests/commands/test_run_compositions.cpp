@@ -60,7 +60,7 @@ w1 = "-0.3*w1 + w2*w3"
 
 } // namespace
 
-TEST_CASE("forces on a group are composed by exp, and refused by Cayley's map", "[run]")
+TEST_CASE("forces on a group are composed by exp, and refused by Cayley's map", "[run][all]")
 {
     require_composed(braked_body, "midpoint", "exp", {{"discrete4", 4, "0.2", "0.1"}});
     const Outcome refused = call({"run", scheme_file(braked_body, "midpoint", "cayley"), "--method", "discrete4",
@@ -71,7 +71,7 @@ TEST_CASE("forces on a group are composed by exp, and refused by Cayley's map", 
 }
 
 TEST_CASE("a composition on an action groupoid keeps momenta and Casimirs, and its arrows lead from row to row",
-          "[run]")
+          "[run][all]")
 {
     const std::string path = scheme_file(symmetric_top, "midpoint", "exp");
     const json::Value found = ran({path, "--method", "discrete6", "--step", "0.2", "--t-end", "20"});

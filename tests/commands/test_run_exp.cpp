@@ -130,7 +130,8 @@ TEST_CASE("a free rotor with exp turns by h w in a step, at rotations by more th
     }
 }
 
-TEST_CASE("the midpoint with exp on SO(3) makes the steps of dexp^-1 by hand, and keeps the momentum in space", "[run]")
+TEST_CASE("the midpoint with exp on SO(3) makes the steps of dexp^-1 by hand, and keeps the momentum in space",
+          "[run][all]")
 {
     const double h = 0.6;
     const std::string path = scheme_file(body, "midpoint", "exp");

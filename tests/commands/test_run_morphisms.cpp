@@ -130,7 +130,7 @@ TEST_CASE("in Hamilton's form momenta are compared by the pull-back of those of 
     CHECK(value_of(value["defect"]["max"]) < 1e-11);
 }
 
-TEST_CASE("arrows of the pair groupoid of SE(2) go to arrows of the group, step by step to round-off", "[run]")
+TEST_CASE("arrows of the pair groupoid of SE(2) go to arrows of the group, step by step to round-off", "[run][all]")
 {
     const std::string folder = morphisms_with_scene("se2_pair.toml", body_scene);
     const json::Value value = run_map({folder + "se2_reduction.toml"});

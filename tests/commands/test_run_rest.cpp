@@ -66,7 +66,7 @@ steps = 400
 
 } // namespace
 
-TEST_CASE("a discrete motion that comes to rest stays there", "[run]")
+TEST_CASE("a discrete motion that comes to rest stays there", "[run][all]")
 {
     for (const char* scheme : {"midpoint", "gauss:2"}) {
         INFO(scheme);
@@ -140,7 +140,7 @@ steps = 1000
 }
 
 TEST_CASE("elements so large that rounding hides their momenta are no arrows, small ones are found to rounding",
-          "[run]")
+          "[run][all]")
 {
     const std::string line = R"toml(
 [fibre]
