@@ -61,10 +61,7 @@ struct Pencil {
 Pencil pencil(const LinearSystem& system, Eigenvalue lambda)
 {
     const auto& D = system.units;
-    Pencil out{{}, Matrix::Identity(D.size(), system.leaf.cols()), {}};
-    const Matrix scaled = D.cwiseInverse().asDiagonal() * system.leaf;
-    if (scaled.size() > 0) out.basis.applyOnTheLeft(scaled.householderQr().householderQ());
-    out.basis.applyOnTheLeft(D.asDiagonal().toDenseMatrix());
+    Pencil out{{}, system.balanced_leaf(), {}};
     out.rows = (system.A * D.asDiagonal()).cwiseAbs().rowwise().sum() + std::abs(lambda) * D;
     for (double& row : out.rows) row = row > 0 ? 1 / row : 1;
     out.values = out.rows.asDiagonal() * shifted(system, lambda) * out.basis;
@@ -155,6 +152,14 @@ double LinearSystem::size() const
 {
     const double norm = A.norm();
     return norm > 0 ? norm : 1;
+}
+
+Matrix LinearSystem::balanced_leaf() const
+{
+    const Matrix scaled = units.cwiseInverse().asDiagonal() * leaf;
+    Matrix basis = Matrix::Identity(leaf.rows(), leaf.cols());
+    if (scaled.size() > 0) basis.applyOnTheLeft(scaled.householderQr().householderQ());
+    return units.asDiagonal() * basis;
 }
 
 bool LinearSystem::is_reached(Eigenvalue lambda) const

@@ -28,6 +28,8 @@ struct LinearSystem {
     Eigen::VectorXd units; ///< of the states, powers of 2 that balance A
 
     [[nodiscard]] double size() const; ///< |A|, 1 of 0
+    /// A basis of the leaf, shape (n, k), orthonormal in these units.
+    [[nodiscard]] Matrix balanced_leaf() const;
 
     /// Hautus' tests at an eigenvalue of A: rank [(A - lambda) T, B, N] = n says that the inputs reach its modes on the
     /// leaf, rank [(A - lambda) T; Q T] = k that the weight Q, semidefinite, sees them.

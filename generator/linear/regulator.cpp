@@ -9,7 +9,9 @@ namespace lagen::linear {
 namespace {
 
 using Complex = Eigen::MatrixXcd;
+using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 
+constexpr int most_steps = 30; ///< of Newton's method
 /// A real part below the first of its eigenvalue, or the second of |A|, is none.
 constexpr double axis_tolerance = 1e-9, rounding_tolerance = 1e-14;
 
@@ -59,18 +61,19 @@ std::optional<Matrix> by_stable_subspace(const Riccati& equation)
 }
 
 /// X with F^T X + X F + C = 0, where all of F decays. [Bartels and Stewart 1972]
-Matrix lyapunov(const Matrix& F, const Matrix& C)
+LongMatrix lyapunov(const LongMatrix& F, const LongMatrix& C)
 {
-    const Eigen::ComplexSchur<Complex> schur(F.cast<Eigenvalue>());
-    const Complex &T = schur.matrixT(), &U = schur.matrixU();
-    const Complex right = -U.adjoint() * C.cast<Eigenvalue>() * U;
-    Complex Y = Complex::Zero(F.rows(), F.cols());
+    using LongComplex = Eigen::Matrix<std::complex<long double>, Eigen::Dynamic, Eigen::Dynamic>;
+    const Eigen::ComplexSchur<LongComplex> schur(F.cast<std::complex<long double>>());
+    const LongComplex &T = schur.matrixT(), &U = schur.matrixU();
+    const LongComplex right = -U.adjoint() * C.cast<std::complex<long double>>() * U;
+    LongComplex Y = LongComplex::Zero(F.rows(), F.cols());
     for (Eigen::Index j = 0; j < Y.cols(); ++j) {
-        Complex L = T.adjoint();
+        LongComplex L = T.adjoint();
         L.diagonal().array() += T(j, j);
         Y.col(j) = L.triangularView<Eigen::Lower>().solve(right.col(j) - Y.leftCols(j) * T.col(j).head(j));
     }
-    const Matrix X = (U * Y * U.adjoint()).real();
+    const LongMatrix X = (U * Y * U.adjoint()).real();
     return (X + X.transpose()) / 2;
 }
 
@@ -93,16 +96,29 @@ std::variant<Regulator, NoRegulator> regulator(const LinearSystem& system, const
         if (std::abs(real) <= axis && !system.is_seen(mode.eigenvalue, Q))
             return NoRegulator{NoRegulator::Reason::not_seen, mode.eigenvalue};
     }
-    const Matrix &T = system.leaf, A = T.transpose() * system.A * T, B = T.transpose() * system.B;
+    const Matrix T = system.balanced_leaf();
+    const Eigen::VectorXd inverse = system.units.array().square().inverse();
+    const Matrix onto = T.transpose() * inverse.asDiagonal(); // onto T = 1
+    const Matrix A = onto * system.A * T, B = onto * system.B;
     const Matrix weighted = R.llt().solve(B.transpose()); // R^-1 B^T
     const Riccati equation{A, B * weighted, T.transpose() * Q * T};
     std::optional<Matrix> P = by_stable_subspace(equation);
     if (!P || !decays(eigenvalues(A - equation.G * *P), A.rows())) return NoRegulator{};
-    const Matrix K = weighted * *P;
-    const Matrix refined = lyapunov(A - B * K, equation.Q + K.transpose() * R * K);
-    if (equation.residual(refined) < equation.residual(*P)) P = refined;
-    const Matrix gain = weighted * *P;
-    Regulator out{gain * T.transpose(), equation.residual(*P), eigenvalues(A - B * gain)};
+    // Slow modes have few digits where fast ones stand beside them: each step doubles them, to those of long double.
+    const LongMatrix longA = A.cast<long double>(), longB = B.cast<long double>(), longR = R.cast<long double>();
+    LongMatrix gain = (weighted * *P).cast<long double>();
+    for (int step = 0;; ++step) {
+        if (step == most_steps) return NoRegulator{};
+        const LongMatrix refined =
+            lyapunov(longA - longB * gain, equation.Q.cast<long double>() + gain.transpose() * longR * gain);
+        const LongMatrix next = longR.llt().solve(longB.transpose() * refined), change = next - gain;
+        const long double least = 1e-13L * next.cwiseAbs().maxCoeff();
+        P = refined.cast<double>(), gain = next;
+        if (!P->allFinite() || !decays(eigenvalues(A - B * gain.cast<double>()), A.rows())) return NoRegulator{};
+        if ((change.array().abs() <= 1e-8L * next.array().abs() + least).all()) break;
+    }
+    const Matrix found = gain.cast<double>();
+    Regulator out{found * onto, equation.residual(*P), eigenvalues(A - B * found)};
     const double rounding = 1e-14 * out.K.cwiseAbs().maxCoeff();
     out.K = out.K.unaryExpr([&](double entry) { return std::abs(entry) < rounding ? 0.0 : entry; });
     if (!decays(out.closed_loop, A.rows())) return NoRegulator{};

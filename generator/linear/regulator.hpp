@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The gain u = -K s of least cost, the integral of s^T Q s + u^T R u over all times, on the leaf of a linear system:
 ///   K = R^-1 B^T P,      A^T P + P A - P B R^-1 B^T P + Q = 0,      all of A - B K decays.
-/// P spans with 1 the stable subspace of the Hamiltonian matrix, by its ordered Schur form, and is refined by a step of
-/// Newton's method. [Laub 1979; Kleinman 1968]
+/// P spans with 1 the stable subspace of the Hamiltonian matrix, by its ordered Schur form, and is refined by
+/// Newton's method, in the units in which A is balanced. [Laub 1979; Kleinman 1968]
 #pragma once
 
 #include "linear/linear_system.hpp"

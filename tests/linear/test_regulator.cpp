@@ -127,6 +127,20 @@ TEST_CASE("what cannot be stabilised, or costs nothing, has no regulator")
     CHECK(std::get<Regulator>(gain_of(mixed, Matrix::Identity(2, 2).col(0), Matrix::Identity(2, 2), one(1)))
               .closed_loop[0]
               .real() == Approx(-std::sqrt(2.0)));
+    // A plant that units make lopsided: x'' = x + u, x in nm, and a lag of a nanosecond.
+    const Matrix plant = (Matrix(3, 3) << 0, 1e9, 0, 1e-9, 0, 0, 0, 0, -1e9).finished();
+    const Matrix push = (Matrix(3, 1) << 0, 1, 1e9).finished();
+    const auto held = std::get<Regulator>(gain_of(plant, push, Eigen::Vector3d(1e-18, 1, 0).asDiagonal(), one(1)));
+    CHECK(held.K(0, 0) * 1e9 == Approx(1 + std::sqrt(2.0)).epsilon(1e-6));
+    CHECK(held.K(0, 1) == Approx(1 + std::sqrt(2.0)).epsilon(1e-6));
+    // Two loops in SI units, 1 mH and 1 uF with -2 ohms, 10 nH and 1 nF with 50, Q = R = 1; K in 60 digits.
+    Matrix loops = Matrix::Zero(4, 4);
+    loops.topRightCorner(2, 2).setIdentity();
+    loops(2, 0) = -1e9, loops(2, 2) = 2000, loops(3, 1) = -1e17, loops(3, 3) = -5e9;
+    const Matrix volts = (Matrix(4, 1) << 0, 0, 1000, 1e8).finished();
+    const auto damped = std::get<Regulator>(gain_of(loops, volts, Matrix::Identity(4, 4), one(1)));
+    const double exact[] = {-0.042351103993067467, 42.351603993567167, 4.2360680643206043, 0.0099990001989818376};
+    for (Eigen::Index k = 0; k < 4; ++k) CHECK(damped.K(0, k) == Approx(exact[k]).epsilon(k == 0 ? 1e-3 : 1e-6));
     // Nor is one that decays slowly beside others.
     const Matrix stiff = Eigen::Vector3d(1, -1, -1e9).asDiagonal();
     CHECK(std::get<Regulator>(gain_of(stiff, Matrix::Identity(3, 3).col(0), Matrix::Identity(3, 3), one(1)))
