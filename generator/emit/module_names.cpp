@@ -86,8 +86,6 @@ constexpr std::string_view members[] = {
     "algebra_bracket",
     "events",
     "jumps",
-    "state",
-    "parameter",
     "input",
     "inputs",
     "base",

@@ -84,6 +84,31 @@ bool decays(const std::vector<Eigenvalue>& values, Eigen::Index size)
            std::ranges::all_of(values, [](const Eigenvalue& each) { return each.real() < 0; });
 }
 
+struct Refined {
+    Matrix P, gain;                      ///< gain = R^-1 B^T P
+    std::vector<Eigenvalue> closed_loop; ///< of A - B gain, which decays
+};
+
+/// Newton's method from a gain with which all decays, until every entry keeps its digits. Slow modes have few of them
+/// where fast ones stand beside: each step doubles them, to those of long double. Nothing where it does not come there.
+std::optional<Refined> refine(const Riccati& equation, const Matrix& B, const Matrix& R, const Matrix& start)
+{
+    const LongMatrix longA = equation.A.cast<long double>(), longB = B.cast<long double>(),
+                     longQ = equation.Q.cast<long double>(), longR = R.cast<long double>();
+    LongMatrix gain = start.cast<long double>();
+    for (int step = 0; step < most_steps; ++step) {
+        const LongMatrix P = lyapunov(longA - longB * gain, longQ + gain.transpose() * longR * gain);
+        const LongMatrix next = longR.llt().solve(longB.transpose() * P), change = next - gain;
+        const long double least = 1e-13L * next.cwiseAbs().maxCoeff();
+        gain = next;
+        Refined out{P.cast<double>(), gain.cast<double>(), {}};
+        out.closed_loop = eigenvalues(equation.A - B * out.gain);
+        if (!out.P.allFinite() || !decays(out.closed_loop, B.rows())) return std::nullopt;
+        if ((change.array().abs() <= 1e-8L * next.array().abs() + least).all()) return out;
+    }
+    return std::nullopt;
+}
+
 } // namespace
 
 std::variant<Regulator, NoRegulator> regulator(const LinearSystem& system, const std::vector<Mode>& modes,
@@ -102,26 +127,13 @@ std::variant<Regulator, NoRegulator> regulator(const LinearSystem& system, const
     const Matrix A = onto * system.A * T, B = onto * system.B;
     const Matrix weighted = R.llt().solve(B.transpose()); // R^-1 B^T
     const Riccati equation{A, B * weighted, T.transpose() * Q * T};
-    std::optional<Matrix> P = by_stable_subspace(equation);
+    const std::optional<Matrix> P = by_stable_subspace(equation);
     if (!P || !decays(eigenvalues(A - equation.G * *P), A.rows())) return NoRegulator{};
-    // Slow modes have few digits where fast ones stand beside them: each step doubles them, to those of long double.
-    const LongMatrix longA = A.cast<long double>(), longB = B.cast<long double>(), longR = R.cast<long double>();
-    LongMatrix gain = (weighted * *P).cast<long double>();
-    for (int step = 0;; ++step) {
-        if (step == most_steps) return NoRegulator{};
-        const LongMatrix refined =
-            lyapunov(longA - longB * gain, equation.Q.cast<long double>() + gain.transpose() * longR * gain);
-        const LongMatrix next = longR.llt().solve(longB.transpose() * refined), change = next - gain;
-        const long double least = 1e-13L * next.cwiseAbs().maxCoeff();
-        P = refined.cast<double>(), gain = next;
-        if (!P->allFinite() || !decays(eigenvalues(A - B * gain.cast<double>()), A.rows())) return NoRegulator{};
-        if ((change.array().abs() <= 1e-8L * next.array().abs() + least).all()) break;
-    }
-    const Matrix found = gain.cast<double>();
-    Regulator out{found * onto, equation.residual(*P), eigenvalues(A - B * found)};
+    const std::optional<Refined> refined = refine(equation, B, R, weighted * *P);
+    if (!refined) return NoRegulator{};
+    Regulator out{refined->gain * onto, equation.residual(refined->P), refined->closed_loop};
     const double rounding = 1e-14 * out.K.cwiseAbs().maxCoeff();
     out.K = out.K.unaryExpr([&](double entry) { return std::abs(entry) < rounding ? 0.0 : entry; });
-    if (!decays(out.closed_loop, A.rows())) return NoRegulator{};
     return out;
 }
 
