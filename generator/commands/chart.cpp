@@ -30,18 +30,18 @@ const CommandSyntax chart_syntax{
     "Runs a scene by every method that applies, over tolerances and steps, and charts time and calls against the error "
     "of the state. Writes chart.svg, chart.png, chart.csv and chart.json, and drift.svg and drift.png where something "
     "is conserved.",
-    {{"scene", "NAME", "the scene; without it `default`, else the first"},
+    {option::scene,
      {"form", "FORM", chart_form_help.c_str()},
      {"methods", "A,B,..", "these alone, see `lagen methods`; without it all that apply"},
      {"stability", nullptr, "chart instead what becomes of the scene with each step: stability.svg, .png, .csv, .json"},
      {"over", "RANGES", "of --stability: step=FIRST:LAST:COUNT[,NAME=FIRST:LAST:COUNT], NAME a parameter or initial.x"},
      {"peers", nullptr, "odeint, GSL and SUNDIALS too, where they are installed, with the same right-hand side"},
      {"t-end", "T", "end of the runs, backwards where it lies before the start; without it the scene's duration"},
-     {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
-     {"initial", "NAME=VALUE", "an initial value of the scene (may be repeated)"},
+     option::set,
+     option::initial,
      {"output,o", "DIR", "the folder of the files, made where it is missing", "."},
-     {"unchecked", nullptr, "go on although the model is refuted"},
-     {"format,f", "FORMAT", "text or json", "text"}}};
+     option::unchecked,
+     option::format}};
 
 std::vector<const MethodEntry*> wanted_methods(const Options& options)
 {
@@ -73,7 +73,7 @@ void make_folder(const std::string& folder)
 /// Warns of what the model's proofs leave open.
 void show_warnings(const CheckedModel& checked)
 {
-    for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
+    warn(checked.warnings);
 }
 
 /// `chart --stability`.
@@ -103,7 +103,7 @@ ExitCode run_chart(Arguments arguments)
 {
     const Options options(chart_syntax, arguments);
     if (options.help()) return ExitCode::done;
-    const bool as_json = options.choice("format", {"text", "json"}) == "json";
+    const bool as_json = options.as_json();
     if (options.has("form")) (void)options.choice("form", form_names());
     ChartRequest request;
     request.methods = wanted_methods(options);
@@ -111,8 +111,8 @@ ExitCode run_chart(Arguments arguments)
     require_together(options);
     const bool draws = !find_program("gnuplot").empty();
     if (!draws)
-        write_standard_error(fmt::format("warning: gnuplot was not found: {0}.svg and {0}.png are not drawn\n",
-                                         options.has("stability") ? "stability" : "chart"));
+        warn(fmt::format("gnuplot was not found: {0}.svg and {0}.png are not drawn",
+                         options.has("stability") ? "stability" : "chart"));
     if (options.has("stability")) return chart_stability(options, std::move(request), as_json);
     const std::string folder = options.get("output");
     CheckedModel checked = charted_model(options, model_path(options.positional()[0]));
@@ -123,8 +123,7 @@ ExitCode run_chart(Arguments arguments)
     request.form = form_of(checked.model, request.scene);
     make_folder(folder);
     const Chart chart = make_chart(checked, request);
-    if (!chart.shortened.empty())
-        write_standard_error(fmt::format("warning: the chart ends at t = {:.9g}: {}\n", chart.end, chart.shortened));
+    if (!chart.shortened.empty()) warn(fmt::format("the chart ends at t = {:.9g}: {}", chart.end, chart.shortened));
     if (request.methods.empty() && !request.peers) keep_chart(chart_file(options, checked.model), kept_chart(chart));
     write_file(folder + "/chart.json", chart_json(chart));
     write_file(folder + "/chart.csv", chart_csv(chart));

@@ -28,8 +28,8 @@ const CommandSyntax check_syntax{
     "proved, refuted at a point, or undecided.",
     {{"invariant", "EXPR", "decide also whether this function is conserved (may be repeated)"},
      {"verify", nullptr, "evaluate every residual again, at other points and to 60 digits"},
-     {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
-     {"format,f", "FORMAT", "text or json", "text"}}};
+     option::set,
+     option::format}};
 
 constexpr std::size_t reevaluation_points = 5;
 
@@ -53,13 +53,14 @@ void require_arrows(const Model& model)
         if (!scene.element.empty()) (void)evaluate_scene(model, scene);
 }
 
-/// A report to `text` or, where there is one, to `json`.
-struct Output {
-    std::string& text;
-    JsonWriter* json;
+/// The answer for one file, as text or as a record, with its exit code.
+struct Answer {
+    ExitCode code;
+    std::string text;
+    Record record;
 };
 
-ExitCode check_model(const Model& model, const Options& options, std::size_t points, const Output& output)
+Answer check_model(const Model& model, const Options& options, std::size_t points)
 {
     require_arrows(model);
     const std::vector<NamedTree> claims = extra_invariants(options, model);
@@ -68,51 +69,32 @@ ExitCode check_model(const Model& model, const Options& options, std::size_t poi
     const System system = elaborate(model);
     Report verified = verify(system, claims, points);
     advise(system, verified);
-    if (verified.control.maximum.kind == ControlMaximum::Kind::stationary)
-        write_standard_error(fmt::format("warning: {}\n", stationary_controls));
-    if (output.json != nullptr)
-        report_json(*output.json, model.name, verified);
-    else
-        output.text += report_text(model.name, verified);
-    return code_of(verified.structure.verdict);
+    if (verified.control.maximum.kind == ControlMaximum::Kind::stationary) warn(stationary_controls);
+    return {code_of(verified.structure.verdict), report_text(model.name, verified), record_of(model.name, verified)};
 }
 
-ExitCode check_morphism(const MorphismFile& file, const Options& options, std::size_t points, const Output& output)
+Answer check_morphism(const MorphismFile& file, const Options& options, std::size_t points)
 {
     if (options.has("invariant"))
         throw UsageError("lagen check: --invariant is of a model, and " + quote(file.file->name) + " is a morphism");
     const VerifiedMorphism verified = verify_morphism(file, points);
-    if (output.json != nullptr)
-        morphism_json(*output.json, verified);
-    else
-        output.text += morphism_text(verified);
-    return code_of(verdict_of(verified));
+    return {code_of(verdict_of(verified)), morphism_text(verified), record_of(verified)};
 }
 
 /// One file; what is wrong with it goes to standard error.
-ExitCode check_one(const std::string& path, const Options& options, std::string& text, JsonWriter* json)
+Answer check_one(const std::string& path, const Options& options)
 {
     try {
         const std::string place = model_path(path);
         const auto file = std::make_shared<const SourceFile>(SourceFile{place, read_file(place)});
         const std::size_t points = options.has("verify") ? reevaluation_points : 0;
-        const Output output{text, json};
         if (is_morphism(file))
-            return check_morphism(read_morphism(file, options.settings(), choosers()), options, points, output);
-        return check_model(read_model_text(place, file->text, options.settings(), choosers()), options, points, output);
+            return check_morphism(read_morphism(file, options.settings(), choosers()), options, points);
+        return check_model(read_model_text(place, file->text, options.settings(), choosers()), options, points);
     } catch (const Error& error) {
         const std::string said = error.what();
         write_standard_error(said + (said.ends_with('\n') ? "" : "\n"));
-        if (json != nullptr)
-            json->begin_object()
-                .key("model")
-                .value(path)
-                .key("verdict")
-                .value("error")
-                .key("message")
-                .value(said)
-                .end_object();
-        return error.code();
+        return {error.code(), "", {{"model", path}, {"verdict", "error"}, {"message", said}}};
     }
 }
 
@@ -130,16 +112,17 @@ ExitCode run_check(Arguments arguments)
 {
     const Options options(check_syntax, arguments);
     if (options.help()) return ExitCode::done;
-    const bool as_json = options.choice("format", {"text", "json"}) == "json";
-    const bool list = options.positional().size() > 1;
-    JsonWriter json;
+    const bool as_json = options.as_json();
+    Record records = Record::array();
     std::string text;
     ExitCode code = ExitCode::done;
-    if (as_json && list) json.begin_array();
-    for (const std::string& path : options.positional())
-        code = worst(code, check_one(path, options, text, as_json ? &json : nullptr));
-    if (as_json && list) json.end_array();
-    write_standard_output(as_json ? json.text() + "\n" : text);
+    for (const std::string& path : options.positional()) {
+        Answer answer = check_one(path, options);
+        code = worst(code, answer.code);
+        text += answer.text;
+        records.push_back(std::move(answer.record));
+    }
+    write_standard_output(as_json ? to_json(records.size() > 1 ? records : records[0]) + "\n" : text);
     return code;
 }
 

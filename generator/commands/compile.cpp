@@ -27,8 +27,8 @@ const CommandSyntax compile_syntax{
      {"form", "FORM", "lagrange, hamilton or pontryagin; without it that of the scene, or of the model"},
      {"scene", "NAME", "with the events and the observed expressions of this scene"},
      {"with", "KERNELS", "kernels beside those that every header has, e.g. taylor,event_series"},
-     {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
-     {"unchecked", nullptr, "go on although the model is refuted"}}};
+     option::set,
+     option::unchecked}};
 
 /// A discrete motion has no right-hand side, which a compiled model is.
 void require_rates(const Options& options, const Model& model, const std::string& form)
@@ -62,8 +62,7 @@ ExitCode run_compile(Arguments arguments)
         scene = in_form(checked.model, *scene, request.form);
     }
     require_rates(options, checked.model, request.form);
-    for (const std::string& warning : warnings_of(checked, request.form))
-        write_standard_error(fmt::format("warning: {}\n", warning));
+    warn(warnings_of(checked, request.form));
     if (scene) request.scene = &*scene;
     request.keeps_values = true;
     request.with = split_list(options.get("with"));

@@ -5,7 +5,6 @@
 #include "commands/line/options.hpp"
 #include "commands/machine/places.hpp"
 #include "commands/machine/write_file.hpp"
-#include "emit/json.hpp"
 #include "emit/print_equations.hpp"
 #include "emit/print_sympy.hpp"
 #include "equations/equation_module.hpp"
@@ -41,8 +40,8 @@ const CommandSyntax derive_syntax{"derive",
                                    {"bracket", "F",
                                     "with --form poisson: the bracket {F, G} of two functions of base "
                                     "coordinates and momenta (twice)"},
-                                   {"output,o", "FILE", "write there instead of to standard output"},
-                                   {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
+                                   option::output,
+                                   option::set,
                                    {"format,f", "FORMAT",
                                     "text, latex, json, or sympy: a Python module with the equations as SymPy "
                                     "expressions and their right-hand side (docs/python.md)",
@@ -68,13 +67,6 @@ bool is_on_dual(const Model& model, const std::string& name)
 std::string marked(const std::string& text, const std::string& format, const std::vector<std::string>& warnings)
 {
     if (warnings.empty()) return text;
-    if (format == "json") {
-        JsonWriter json;
-        json.begin_object().key("warnings").begin_array();
-        for (const std::string& warning : warnings) json.value(warning);
-        json.end_array().end_object();
-        return json.text().substr(0, json.text().size() - 1) + ", " + text.substr(1);
-    }
     std::string mark;
     for (const std::string& warning : warnings)
         mark += fmt::format("{}WARNING: {}\n", format == "latex" ? "% " : format == "sympy" ? "# " : "", warning);
@@ -139,23 +131,26 @@ ExitCode run_derive(Arguments arguments)
     if (format == "sympy") require_module_form(form);
     const std::vector<Tree> brackets = bracket_functions(options, checked.model, form);
     const std::vector<std::string> warnings = warnings_of(checked, form);
-    for (const std::string& warning : warnings) write_standard_error(fmt::format("warning: {}\n", warning));
+    warn(warnings);
     if (is_form(form, FormKind::lagrange) && checked.report.mechanics.regularity.kind == Regularity::Kind::degenerate)
-        write_standard_error(
-            "warning: the Lagrangian is degenerate: the accelerations are not determined by the equations\n");
+        warn("the Lagrangian is degenerate: the accelerations are not determined by the equations");
     if (is_form(form, FormKind::discrete) && checked.report.mechanics.discrete.kind == Regularity::Kind::degenerate)
-        write_standard_error(
-            "warning: the discrete Lagrangian is degenerate: the arrow of a step is not determined by the equations\n");
+        warn("the discrete Lagrangian is degenerate: the arrow of a step is not determined by the equations");
     const bool expanded = options.has("expand") || format == "sympy";
     EquationSet equations = derive(form, checked.model, checked.system, checked.report, brackets,
                                    expanded ? Definitions::expanded : Definitions::kept);
     if (!expanded && format != "json") equations = with_written_blocks(std::move(equations), checked.model);
-    const std::string text =
-        marked(format == "text"    ? print_text(equations)
-               : format == "latex" ? print_latex(equations)
-               : format == "json"  ? print_json(equations)
-                                   : print_sympy(equation_module(checked.model, checked.system, equations)),
-               format, warnings);
+    std::string text;
+    if (format == "json") {
+        Record record = record_of(equations);
+        add_unless_empty(record, "warnings", warnings);
+        text = to_json(record);
+    } else {
+        text = marked(format == "text"    ? print_text(equations)
+                      : format == "latex" ? print_latex(equations)
+                                          : print_sympy(equation_module(checked.model, checked.system, equations)),
+                      format, warnings);
+    }
     const std::string file = options.has("output") ? options.get("output") : "-";
     announce(text, file);
     write_file(file, text.ends_with('\n') ? text : text + "\n");

@@ -6,10 +6,10 @@
 #include "commands/machine/write_file.hpp"
 #include "commands/report_operations.hpp"
 #include "commands/scene/scene_options.hpp"
-#include "emit/json.hpp"
 #include "kernels/requested_kernels.hpp"
 #include "model/scene_form.hpp"
 #include "pipeline.hpp"
+#include "text/record.hpp"
 
 #include <fmt/format.h>
 
@@ -33,8 +33,8 @@ CommandSyntax generate_syntax(const std::string& form, const std::string& only)
               "and its "
               "costliest terms; full, every form that was tried",
               nullptr, "summary"},
-             {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
-             {"bind", "NAMES", bind_help},
+             option::set,
+             option::bind,
              {"unchecked", nullptr, "go on although the model is refuted; the header says so"},
              {"format,f", "FORMAT", "text (the header) or json (what it holds, and the header)", "text"},
              {"depfile", "FILE", "write a dependency file for make or ninja (needs --output)"}}};
@@ -66,21 +66,22 @@ std::string escaped(const std::string& path)
 }
 
 /// {"model", "form", "class", "hash", "regenerate", "warnings", "kernels": [{"name", "rows", "columns"}], "header"}
-std::string module_json(const Generated& generated)
+Record record_of(const Generated& generated)
 {
     const KernelModule& module = generated.module;
-    JsonWriter json;
-    json.begin_object().key("model").value(module.model).key("form").value(module.form);
-    json.key("class").value(module.name).key("hash").value(module.hash).key("regenerate").value(module.regenerate);
-    json.key("warnings").begin_array();
-    for (const std::string& warning : module.warnings) json.value(warning);
-    json.end_array().key("kernels").begin_array();
-    for (const Kernel& kernel : module.kernels) {
-        json.begin_object().key("name").value(kernel.name).key("rows").value(kernel.outputs[0].shape.rows);
-        json.key("columns").value(kernel.outputs[0].shape.columns).end_object();
-    }
-    json.end_array().key("header").value(generated.header).end_object();
-    return json.text() + "\n";
+    return {
+        {"model", module.model},
+        {"form", module.form},
+        {"class", module.name},
+        {"hash", module.hash},
+        {"regenerate", module.regenerate},
+        {"warnings", module.warnings},
+        {"kernels", list_of(module.kernels,
+                            [](const Kernel& kernel) {
+                                const ArrayShape& shape = kernel.outputs[0].shape;
+                                return Record{{"name", kernel.name}, {"rows", shape.rows}, {"columns", shape.columns}};
+                            })},
+        {"header", generated.header}};
 }
 
 } // namespace
@@ -91,7 +92,7 @@ ExitCode run_generate(Arguments arguments)
     const std::string only = help_for_only();
     const Options options(generate_syntax(form, only), arguments);
     if (options.help()) return ExitCode::done;
-    const bool as_json = options.choice("format", {"text", "json"}) == "json";
+    const bool as_json = options.as_json();
     if (options.has("form")) (void)options.choice("form", form_names());
     const bool full_report = options.has("report") && options.choice("report", {"summary", "full"}) == "full";
     if (options.has("depfile") && !options.has("output")) throw UsageError("lagen generate: --depfile needs --output");
@@ -99,8 +100,7 @@ ExitCode run_generate(Arguments arguments)
     const CheckedModel checked = load(model, options.settings(), options.has("unchecked"));
     require_apart(options, checked.model);
     const std::string made = options.has("form") ? options.get("form") : default_form(checked.model);
-    for (const std::string& warning : warnings_of(checked, made))
-        write_standard_error(fmt::format("warning: {}\n", warning));
+    warn(warnings_of(checked, made));
     GenerateRequest request;
     if (options.get("output") != "-") request.output = options.get("output");
     request.report = options.has("report");
@@ -113,7 +113,7 @@ ExitCode run_generate(Arguments arguments)
     const std::string output = options.has("output") ? options.get("output") : "-";
     const Generated generated = generate(checked, request);
     if (request.report) write_standard_error(operations_text(generated.reports, full_report));
-    write_file(output, as_json ? module_json(generated) : generated.header);
+    write_file(output, as_json ? to_json(record_of(generated)) + "\n" : generated.header);
     if (options.has("depfile")) {
         std::string inputs = escaped(model);
         for (const auto& file : checked.model.included) inputs += " " + escaped(file->name);

@@ -21,14 +21,14 @@ const CommandSyntax linearize_syntax{
     "MODEL",
     "Finds an equilibrium near the start of a scene, and linearises the equations of motion there: A and B, "
     "eigenvalues and modes, controllability, and the gain u = u0 - K x of least quadratic cost.",
-    {{"scene", "NAME", "the scene; without it `default`, else the first"},
+    {option::scene,
      {"form", "FORM", "lagrange or hamilton; without it that of the scene"},
-     {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
-     {"initial", "NAME=VALUE", "an initial value of the scene (may be repeated)"},
+     option::set,
+     option::initial,
      {"lqr", "'Q=..;R=..'", "the gain that makes the integral of x'Qx + u'Ru least: numbers, diagonals or matrices"},
-     {"output,o", "FILE", "write there instead of to standard output"},
-     {"unchecked", nullptr, "go on although the model is refuted"},
-     {"format,f", "FORMAT", "text or json", "text"}}};
+     option::output,
+     option::unchecked,
+     option::format}};
 
 Matrix matrix_of(const std::vector<std::vector<double>>& rows, std::size_t columns)
 {
@@ -82,13 +82,12 @@ ExitCode run_linearize(Arguments arguments)
 {
     const Options options(linearize_syntax, arguments);
     if (options.help()) return ExitCode::done;
-    const bool as_json = options.choice("format", {"text", "json"}) == "json";
+    const bool as_json = options.as_json();
     if (options.has("output")) require_writable(options.get("output"));
     CheckedModel checked = load(model_path(options.positional()[0]), options.settings(), options.has("unchecked"));
     require_apart(options, checked.model);
     const Scene scene = scene_of(options, checked.model, options.named("initial"));
-    for (const std::string& warning : warnings_of(checked, scene.form))
-        write_standard_error(fmt::format("warning: {}\n", warning));
+    warn(warnings_of(checked, scene.form));
     Plant plant = plant_of(checked, scene);
     std::vector<std::string> states, inputs;
     for (const NodeId s : plant.equations.state) states.push_back(plant.graph.input_name(s));

@@ -4,8 +4,8 @@
 #include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
 #include "commands/machine/write_file.hpp"
-#include "emit/json.hpp"
 #include "stability/scheme_limits.hpp"
+#include "text/record.hpp"
 
 #include <fmt/core.h>
 
@@ -23,19 +23,14 @@ const CommandSyntax methods_syntax{
     "Lists the integrators.",
     {{"stability", nullptr,
       "how long their steps may be on linear equations: intervals of the imaginary and real axes"},
-     {"format,f", "FORMAT", "text or json", "text"}}};
+     option::format}};
 
-void method_json(JsonWriter& json, const MethodEntry& entry)
+Record record_of(const MethodEntry& entry)
 {
-    json.begin_object()
-        .key("name")
-        .value(entry.name)
-        .key("order")
-        .value(entry.order)
-        .key("adaptive")
-        .value(entry.adaptive);
-    json.key("separable_only").value(entry.kind == MethodKind::splitting).key("text").value(entry.text);
-    json.key("keeps").value(entry.keeps).key("system").value(system_of(entry)).end_object();
+    return {{"name", entry.name},         {"order", entry.order},
+            {"adaptive", entry.adaptive}, {"separable_only", entry.kind == MethodKind::splitting},
+            {"text", entry.text},         {"keeps", entry.keeps},
+            {"system", system_of(entry)}};
 }
 
 struct StabilityRow {
@@ -68,15 +63,9 @@ std::string limit_text(const std::optional<double>& limit)
     return *limit == no_limit ? "unbounded" : fmt::format("{:.6f}", *limit);
 }
 
-void limit_json(JsonWriter& json, const char* key, const std::optional<double>& limit)
+Record limit_record(const std::optional<double>& limit)
 {
-    json.key(key);
-    if (!limit)
-        json.null();
-    else if (*limit == no_limit)
-        json.value("unbounded");
-    else
-        json.value(*limit);
+    return limit && *limit == no_limit ? Record("unbounded") : or_null(limit);
 }
 
 std::string stability_table_text()
@@ -97,22 +86,16 @@ std::string stability_table_text()
     return text;
 }
 
-std::string stability_table_json()
+Record record_of(const StabilityRow& row)
 {
-    JsonWriter json;
-    json.begin_array();
-    for (const auto& [name, order, limits] : stability_rows()) {
-        json.begin_object().key("name").value(name).key("order").value(order).key("calls");
-        if (limits.calls > 0)
-            json.value(limits.calls);
-        else
-            json.null();
-        limit_json(json, "imaginary", limits.imaginary);
-        limit_json(json, "real", limits.real);
-        json.key("a_stable").value(limits.a_stable).key("l_stable").value(limits.l_stable).end_object();
-    }
-    json.end_array();
-    return json.text() + "\n";
+    const LinearLimits& limits = row.limits;
+    return {{"name", row.name},
+            {"order", row.order},
+            {"calls", limits.calls > 0 ? Record(limits.calls) : Record()},
+            {"imaginary", limit_record(limits.imaginary)},
+            {"real", limit_record(limits.real)},
+            {"a_stable", limits.a_stable},
+            {"l_stable", limits.l_stable}};
 }
 
 } // namespace
@@ -121,17 +104,14 @@ ExitCode run_methods(Arguments arguments)
 {
     const Options options(methods_syntax, arguments);
     if (options.help()) return ExitCode::done;
-    const bool as_json = options.choice("format", {"text", "json"}) == "json";
+    const bool as_json = options.as_json();
+    const auto record = [](const auto& each) { return record_of(each); };
     if (options.has("stability")) {
-        write_standard_output(as_json ? stability_table_json() : stability_table_text());
+        write_standard_output(as_json ? to_json(list_of(stability_rows(), record)) + "\n" : stability_table_text());
         return ExitCode::done;
     }
     if (as_json) {
-        JsonWriter json;
-        json.begin_array();
-        for (const MethodEntry& entry : method_table()) method_json(json, entry);
-        json.end_array();
-        write_standard_output(json.text() + "\n");
+        write_standard_output(to_json(list_of(method_table(), record)) + "\n");
         return ExitCode::done;
     }
     std::string text;

@@ -5,7 +5,7 @@
 #include "commands/machine/places.hpp"
 #include "commands/machine/write_file.hpp"
 #include "elaborate/make_frame.hpp"
-#include "emit/json.hpp"
+#include "text/record.hpp"
 
 #include <fmt/core.h>
 
@@ -16,8 +16,7 @@ namespace lagen {
 
 namespace {
 
-const CommandSyntax models_syntax{
-    "models", "", "Lists the example models and their scenes.", {{"format,f", "FORMAT", "text or json", "text"}}};
+const CommandSyntax models_syntax{"models", "", "Lists the example models and their scenes.", {option::format}};
 
 std::vector<std::string> model_files(const std::string& folder)
 {
@@ -28,12 +27,12 @@ std::vector<std::string> model_files(const std::string& folder)
     return files;
 }
 
-void model_json(JsonWriter& json, const std::string& file, const Model& model)
+Record record_of(const std::string& file, const Model& model)
 {
-    json.begin_object().key("model").value(model.name).key("title").value(model.title).key("file").value(file);
-    json.key("scenes").begin_array();
-    for (const Scene& scene : model.scenes) json.value(scene.name);
-    json.end_array().end_object();
+    return {{"model", model.name},
+            {"title", model.title},
+            {"file", file},
+            {"scenes", list_of(model.scenes, [](const Scene& scene) { return scene.name; })}};
 }
 
 std::string model_line(const Model& model, std::size_t width)
@@ -49,23 +48,21 @@ ExitCode run_models(Arguments arguments)
 {
     const Options options(models_syntax, arguments);
     if (options.help()) return ExitCode::done;
-    const bool as_json = options.choice("format", {"text", "json"}) == "json";
+    const bool as_json = options.as_json();
     const std::string folder = models_folder();
     if (folder.empty())
         throw MachineError("error: the example models were not found\nhint: set LAGEN_MODELS to their folder");
-    JsonWriter json;
-    json.begin_array();
+    Record records = Record::array();
     std::vector<Model> models;
     std::size_t longest = 0;
     for (const std::string& file : model_files(folder)) {
         models.push_back(read_model(file, {}, choosers()));
         longest = std::max(longest, models.back().name.size());
-        model_json(json, file, models.back());
+        records.push_back(record_of(file, models.back()));
     }
-    json.end_array();
     std::string text = fmt::format("in {}:\n", folder);
     for (const Model& model : models) text += model_line(model, longest);
-    write_standard_output(as_json ? json.text() + "\n" : text);
+    write_standard_output(as_json ? to_json(records) + "\n" : text);
     return ExitCode::done;
 }
 

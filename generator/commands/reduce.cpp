@@ -38,10 +38,10 @@ const CommandSyntax reduce_syntax{
       "of a model: the quotient by this group, SO(3), SE(2), R^2, .., proved and written as a model file"},
      {"action", "X=EXPR,..", "its right action x.W on the coordinates, W an element; those left out stay"},
      {"slice", "X=EXPR,..", "where its orbits are cut (else coordinates at their values in the first scene, or 0)"},
-     {"output,o", "FILE", "write there instead of to standard output"},
-     {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
+     option::output,
+     option::set,
      {"unchecked", nullptr, "go on although the morphism, or a model, is refuted"},
-     {"format,f", "FORMAT", "text or json", "text"}}};
+     option::format}};
 
 /// Both sides in the forms that were compared.
 struct Sides {
@@ -102,24 +102,17 @@ std::string reduction_text(const VerifiedMorphism& verified, const ReductionRepo
     return text;
 }
 
-std::string equations_json(const std::vector<EquationSet>& list)
-{
-    std::string text;
-    for (const EquationSet& equations : list) text += (text.empty() ? "" : ",\n  ") + print_json(equations);
-    return "[" + text + "]";
-}
-
-std::string reduction_json(const VerifiedMorphism& verified, const ReductionReport& reduction, const Sides& sides)
+Record reduction_record(const VerifiedMorphism& verified, const ReductionReport& reduction, const Sides& sides)
 {
     const StructureReport& report = reduction.projects;
-    JsonWriter json;
-    json.begin_object().key("model").value(verified.name).key("verdict").value(to_text(report.verdict));
-    structure_json(json, report);
-    json.key("paths");
-    checks_json(json, reduction.paths);
-    if (!report.note.empty()) json.key("note").value(report.note);
-    return fmt::format("{},\n \"source\": {},\n \"target\": {}}}", json.text(), equations_json(sides.source),
-                       equations_json(sides.target));
+    Record record = {{"model", verified.name}, {"verdict", to_text(report.verdict)}};
+    add_structure(record, report);
+    record["paths"] = checks_record(reduction.paths);
+    add_unless_empty(record, "note", report.note);
+    const auto equations = [](const EquationSet& each) { return record_of(each); };
+    record["source"] = list_of(sides.source, equations);
+    record["target"] = list_of(sides.target, equations);
+    return record;
 }
 
 void write_result(const Options& options, const std::string& text)
@@ -135,12 +128,10 @@ ExitCode reduce_morphism(const Options& options, const MorphismFile& file)
     warn_of_morphism(verified, file.file->name, unchecked);
     const SystemMorphism map = elaborate_whole(file);
     Sides sides;
-    const bool is_json = options.get("format") == "json";
+    const bool is_json = options.as_json();
     const auto add = [&](std::vector<EquationSet>& list, const Model& model, const System& system, const Report& known,
                          const std::vector<Check>& checks) {
-        for (const std::string& warning :
-             require_unrefuted("model", model.name, model.file->name, known.structure, unchecked))
-            write_standard_error(fmt::format("warning: {}\n", warning));
+        warn(require_unrefuted("model", model.name, model.file->name, known.structure, unchecked));
         for (const std::string& row : rows_in(checks))
             if (row != "constraint") {
                 EquationSet equations = derive(row, model, system, known, {}, Definitions::kept);
@@ -150,7 +141,8 @@ ExitCode reduce_morphism(const Options& options, const MorphismFile& file)
     const ReductionReport report = verify_reduction(map);
     add(sides.source, source_of(file), map.source, verified.source, report.projects.checks);
     add(sides.target, target_of(file), map.target, verified.target, report.projects.checks);
-    write_result(options, is_json ? reduction_json(verified, report, sides) : reduction_text(verified, report, sides));
+    write_result(options, is_json ? to_json(reduction_record(verified, report, sides))
+                                  : reduction_text(verified, report, sides));
     return code_of(report.projects.verdict);
 }
 
@@ -174,12 +166,11 @@ ExitCode write_reduced(const Options& options, const std::string& model,
                        const std::string& said, const StructureReport& report)
 {
     const bool writes = !document.empty() && (report.verdict != Verdict::invalid || options.has("unchecked"));
-    if (options.get("format") == "json") {
-        JsonWriter json;
-        json.begin_object().key("model").value(model).key("verdict").value(to_text(report.verdict));
-        if (!document.empty()) json.key(function.first).value(function.second).key("file").value(document);
-        structure_json(json, report);
-        write_file("-", json.end_object().text() + "\n");
+    if (options.as_json()) {
+        Record record = {{"model", model}, {"verdict", to_text(report.verdict)}};
+        if (!document.empty()) record.update({{function.first, function.second}, {"file", document}});
+        add_structure(record, report);
+        write_file("-", to_json(record) + "\n");
         if (options.has("output") && writes) write_file(options.get("output"), document);
     } else {
         write_standard_error(said);
@@ -194,7 +185,7 @@ ExitCode reduce_by_routh(const Options& options, const std::string& path)
     const CheckedModel checked = load(path, options.settings(), options.has("unchecked"));
     const Model& model = checked.model;
     require_apart(options, model);
-    for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
+    warn(checked.warnings);
     for (const Scene& scene : model.scenes) require_no_jumps(options, scene, "Routh's reductions are made");
     const std::vector<std::size_t> cyclic = coordinates_to_reduce(model, split_list(options.get("routh")));
     const StructureReport free_of = cyclic_coordinates(checked.system);
@@ -228,7 +219,7 @@ ExitCode reduce_by_group(const Options& options, const std::string& path)
         throw UsageError("lagen reduce: --group needs --action, how an element W moves the coordinates");
     const CheckedModel checked = load(path, options.settings(), options.has("unchecked"));
     require_apart(options, checked.model);
-    for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
+    warn(checked.warnings);
     const GroupQuotient made = quotient_by_group(checked, options.settings(), options.get("group"),
                                                  options.get("action"), options.get("slice"));
     return write_reduced(options, checked.model.name, {"lagrangian", made.lagrangian}, made.document,
@@ -250,7 +241,7 @@ ExitCode list_cyclic(const Options& options, const std::string& path)
 {
     const CheckedModel checked = load(path, options.settings(), options.has("unchecked"));
     require_apart(options, checked.model);
-    for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
+    warn(checked.warnings);
     const System& system = checked.system;
     if (!system.lagrangian && !system.hamiltonian)
         throw MathematicsError(
@@ -258,13 +249,10 @@ ExitCode list_cyclic(const Options& options, const std::string& path)
             "cyclic coordinates are those of [lagrangian] or [hamiltonian]");
     const StructureReport report = cyclic_coordinates(system);
     const std::vector<std::string> names = cyclic_names(report);
-    if (options.get("format") == "json") {
-        JsonWriter json;
-        json.begin_object().key("model").value(checked.model.name).key("cyclic").begin_array();
-        for (const std::string& name : names) json.value(name);
-        json.end_array();
-        structure_json(json, report);
-        write_result(options, json.end_object().text());
+    if (options.as_json()) {
+        Record record = {{"model", checked.model.name}, {"cyclic", names}};
+        add_structure(record, report);
+        write_result(options, to_json(record));
     } else {
         const std::string list = names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
         write_result(options,
@@ -281,7 +269,7 @@ ExitCode run_reduce(Arguments arguments)
 {
     const Options options(reduce_syntax, arguments);
     if (options.help()) return ExitCode::done;
-    (void)options.choice("format", {"text", "json"});
+    (void)options.as_json();
     if (options.has("output")) require_writable(options.get("output"));
     const std::string path = model_path(options.positional()[0]);
     const auto file = std::make_shared<const SourceFile>(SourceFile{path, read_file(path)});

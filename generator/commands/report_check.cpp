@@ -240,65 +240,64 @@ std::string where_text(const StructureReport& structure, const std::string& kind
 }
 
 template <class Values>
-void values_json(JsonWriter& json, const Values& values)
+Record values_record(const Values& values)
 {
-    json.begin_object();
-    for (const auto& [name, value] : values) json.key(name).value(to_text(value));
-    json.end_object();
+    return object_of(values, [](const auto& value) { return to_text(value); });
 }
 
-void verified_json(JsonWriter& json, const std::optional<Reevaluation>& reevaluation)
+void add_verified(Record& record, const std::optional<Reevaluation>& reevaluation)
 {
-    if (!reevaluation) return;
-    json.key("verified").begin_object().key("points").value(reevaluation->points);
-    json.key("digits").value(static_cast<std::size_t>(reevaluation_digits));
-    json.key("largest").value(largest_text(*reevaluation)).end_object();
+    if (reevaluation)
+        record["verified"] = {{"points", reevaluation->points},
+                              {"digits", reevaluation_digits},
+                              {"largest", largest_text(*reevaluation)}};
 }
 
-void check_json(JsonWriter& json, const Check& check)
+Record record_of(const Check& check)
 {
-    json.begin_object().key("name").value(check.name).key("indices").begin_array();
-    for (const std::string& index : check.indices) json.value(index);
-    json.end_array().key("status").value(to_text(check.decision.status)).key("residual").value(check.decision.residual);
-    if (check.decision.witness) {
-        json.key("witness");
-        values_json(json, check.decision.witness->point);
-        json.key("value").value(check.decision.witness->value);
+    const Decision& decision = check.decision;
+    Record record = {{"name", check.name},
+                     {"indices", check.indices},
+                     {"status", to_text(decision.status)},
+                     {"residual", decision.residual}};
+    if (decision.witness) {
+        record["witness"] = values_record(decision.witness->point);
+        record["value"] = decision.witness->value;
     }
-    if (!check.where.empty()) {
-        json.key("where").begin_array();
-        for (const std::string& condition : check.where) json.value(condition);
-        json.end_array();
-    }
-    if (!check.decision.evidence.empty()) json.key("evidence").value(check.decision.evidence);
-    if (!check.hint.empty()) json.key("hint").value(check.hint);
-    verified_json(json, check.reevaluation);
-    json.end_object();
+    add_unless_empty(record, "where", check.where);
+    add_unless_empty(record, "evidence", decision.evidence);
+    add_unless_empty(record, "hint", check.hint);
+    add_verified(record, check.reevaluation);
+    return record;
 }
 
-void regularity_json(JsonWriter& json, const Regularity& regularity)
+/// The matrix whose rank it is, where that is not d2L/dy2.
+const char* matrix_name(Regularity::Matrix matrix)
 {
-    json.begin_object().key("status").value(kind_text(regularity.kind));
-    json.key("rank");
-    regularity.kind == Regularity::Kind::undecided ? json.null() : json.value(regularity.rank);
-    json.key("positive_definite").value(regularity.positive_definite);
-    json.key("for_given_parameters").value(regularity.for_given_parameters);
-    if (!regularity.evidence.empty()) json.key("evidence").value(regularity.evidence);
-    if (!regularity.coordinates.empty()) json.key("coordinates").value(regularity.coordinates);
-    if (regularity.of == Regularity::Matrix::hamiltonian) json.key("of").value("d2H/dmu2");
-    if (regularity.of == Regularity::Matrix::constrained) json.key("of").value("d2L/dY2 on D");
-    if (regularity.of == Regularity::Matrix::newton) json.key("of").value("N");
-    if (regularity.kind == Regularity::Kind::degenerate) {
-        json.key("kernel").begin_array();
-        for (const auto& vector : regularity.kernel) values_json(json, vector);
-        json.end_array();
+    switch (matrix) {
+    case Regularity::Matrix::lagrangian: break;
+    case Regularity::Matrix::hamiltonian: return "d2H/dmu2";
+    case Regularity::Matrix::constrained: return "d2L/dY2 on D";
+    case Regularity::Matrix::newton: return "N";
     }
-    json.key("singular_everywhere").value(regularity.singular_everywhere);
-    json.key("singular_at").begin_array();
-    for (const NamedPoint& point : regularity.singular_at) values_json(json, point);
-    json.end_array().key("singular_where").begin_array();
-    for (const std::string& factor : regularity.singular_where) json.value(factor);
-    json.end_array().end_object();
+    return "";
+}
+
+Record record_of(const Regularity& regularity)
+{
+    Record record = {{"status", kind_text(regularity.kind)},
+                     {"rank", regularity.kind == Regularity::Kind::undecided ? Record() : Record(regularity.rank)},
+                     {"positive_definite", regularity.positive_definite},
+                     {"for_given_parameters", regularity.for_given_parameters}};
+    add_unless_empty(record, "evidence", regularity.evidence);
+    add_unless_empty(record, "coordinates", regularity.coordinates);
+    add_unless_empty(record, "of", std::string(matrix_name(regularity.of)));
+    const auto values = [](const auto& each) { return values_record(each); };
+    if (regularity.kind == Regularity::Kind::degenerate) record["kernel"] = list_of(regularity.kernel, values);
+    record["singular_everywhere"] = regularity.singular_everywhere;
+    record["singular_at"] = list_of(regularity.singular_at, values);
+    record["singular_where"] = regularity.singular_where;
+    return record;
 }
 
 } // namespace
@@ -348,53 +347,40 @@ std::string report_text(const std::string& model, const Report& verified)
     return text + failures_text(structure);
 }
 
-void checks_json(JsonWriter& json, const std::vector<Check>& checks)
+Record checks_record(const std::vector<Check>& checks)
 {
-    json.begin_array();
-    for (const Check& check : checks) check_json(json, check);
-    json.end_array();
+    return list_of(checks, [](const Check& check) { return record_of(check); });
 }
 
-void structure_json(JsonWriter& json, const StructureReport& structure)
+void add_structure(Record& record, const StructureReport& structure)
 {
-    checks_json(json.key("trivial").value(structure.trivial).key("checks"), structure.checks);
-    if (!structure.forms.empty()) {
-        json.key("forms").begin_array();
-        for (const FormReport& form : structure.forms)
-            json.begin_object()
-                .key("name")
-                .value(form.name)
-                .key("degree")
-                .value(form.degree)
-                .key("closed")
-                .value(to_text(form.closed))
-                .end_object();
-        json.end_array();
-    }
+    record["trivial"] = structure.trivial;
+    record["checks"] = checks_record(structure.checks);
+    add_unless_empty(record, "forms", list_of(structure.forms, [](const FormReport& form) {
+                         return Record{{"name", form.name}, {"degree", form.degree}, {"closed", to_text(form.closed)}};
+                     }));
     if (const auto& candidate = structure.hamilton_jacobi) {
-        json.key("hamilton_jacobi").begin_object();
-        json.key("closed").value(to_text(candidate->closed));
-        json.key("constant_on_leaves").value(to_text(candidate->equation));
-        json.key("lifts").value(to_text(candidate->lifts));
-        if (candidate->action) json.key("action").value(to_text(*candidate->action));
-        json.end_object();
+        Record& member = record["hamilton_jacobi"] = {{"closed", to_text(candidate->closed)},
+                                                      {"constant_on_leaves", to_text(candidate->equation)},
+                                                      {"lifts", to_text(candidate->lifts)}};
+        if (candidate->action) member["action"] = to_text(*candidate->action);
     }
 }
 
-void report_json(JsonWriter& json, const std::string& model, const Report& verified)
+Record record_of(const std::string& model, const Report& verified)
 {
     const StructureReport& structure = verified.structure;
-    json.begin_object().key("model").value(model).key("verdict").value(to_text(structure.verdict));
-    structure_json(json, structure);
+    Record record = {{"model", model}, {"verdict", to_text(structure.verdict)}};
+    add_structure(record, structure);
     const Regularity &discrete = verified.mechanics.discrete, &regularity = verified.mechanics.regularity;
     const bool is_discrete = discrete.kind != Regularity::Kind::absent;
-    regularity_json(json.key("regularity"), is_discrete ? discrete : regularity);
+    record["regularity"] = record_of(is_discrete ? discrete : regularity);
     if (is_discrete && regularity.kind != Regularity::Kind::absent)
-        regularity_json(json.key("regularity_of_lagrangian"), regularity);
-    nonholonomic_json(json, verified.mechanics);
-    verified_json(json, structure.reevaluation);
-    if (!structure.note.empty()) json.key("note").value(structure.note);
-    json.end_object();
+        record["regularity_of_lagrangian"] = record_of(regularity);
+    add_nonholonomic(record, verified.mechanics);
+    add_verified(record, structure.reevaluation);
+    add_unless_empty(record, "note", structure.note);
+    return record;
 }
 
 } // namespace lagen

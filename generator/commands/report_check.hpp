@@ -3,7 +3,7 @@
 #pragma once
 
 #include "diagnostic.hpp"
-#include "emit/json.hpp"
+#include "text/record.hpp"
 #include "verify/verify.hpp"
 
 namespace lagen {
@@ -20,13 +20,12 @@ namespace lagen {
 [[nodiscard]] std::string claims_text(const StructureReport& structure);
 [[nodiscard]] std::string failures_text(const StructureReport& structure);
 
-/// {"model", "verdict", "trivial", "checks": [...], "regularity": {...}} into `json`.
-void report_json(JsonWriter& json, const std::string& model, const Report& verified);
+/// {"model", "verdict", "trivial", "checks": [...], "regularity": {...}}
+[[nodiscard]] Record record_of(const std::string& model, const Report& verified);
 
-/// The checks as a list, which follows a key.
-void checks_json(JsonWriter& json, const std::vector<Check>& checks);
+[[nodiscard]] Record checks_record(const std::vector<Check>& checks);
 
-/// "trivial": .., "checks": [..], and "forms" where there are some, into the open object.
-void structure_json(JsonWriter& json, const StructureReport& structure);
+/// Adds "trivial" and "checks", and "forms" where there are some.
+void add_structure(Record& record, const StructureReport& structure);
 
 } // namespace lagen

@@ -91,32 +91,23 @@ std::string extent_text(const MorphismReport& map)
     return text;
 }
 
-void body_json(JsonWriter& json, const VerifiedMorphism& verified)
+Record body_of(const VerifiedMorphism& verified)
 {
-    json.key("verdict").value(to_text(verdict_of(verified)));
-    structure_json(json, verified.map.structure);
     const FibreRank& rank = verified.map.rank;
-    json.key("rank").begin_object().key("rank");
-    rank.rank ? json.value(*rank.rank) : json.null();
-    json.key("surjective").value(rank.surjective).key("injective").value(rank.injective);
-    if (!rank.where.empty()) {
-        json.key("where").begin_array();
-        for (const std::string& condition : rank.where) json.value(condition);
-        json.end_array();
-    }
-    json.end_object();
     const ReachOfMap& reach = verified.map.reach;
+    Record record = {{"model", verified.name}, {"verdict", to_text(verdict_of(verified))}};
+    add_structure(record, verified.map.structure);
+    Record& of_rank =
+        record["rank"] = {{"rank", or_null(rank.rank)}, {"surjective", rank.surjective}, {"injective", rank.injective}};
+    add_unless_empty(of_rank, "where", rank.where);
     if (!reach.where.empty() || !reach.obstacle.empty()) {
-        json.key("domain").begin_object().key("where").begin_array();
-        for (const std::string& condition : reach.where) json.value(condition);
-        json.end_array();
-        if (!reach.obstacle.empty()) json.key("evidence").value(reach.obstacle);
-        json.end_object();
+        Record& domain = record["domain"] = {{"where", reach.where}};
+        add_unless_empty(domain, "evidence", reach.obstacle);
     }
-    json.key("follows").begin_array();
+    Record& follows = record["follows"] = Record::array();
     for (const Consequence& each : consequences(verified))
-        if (each.holds) json.value(each.name);
-    json.end_array();
+        if (each.holds) follows.push_back(each.name);
+    return record;
 }
 
 void decide_equal(VerifiedMorphism& verified, const MorphismFile& file, const SystemMorphism& map)
@@ -165,8 +156,7 @@ Verdict verdict_of(const VerifiedMorphism& verified)
 void warn_of_morphism(const VerifiedMorphism& verified, const std::string& file, bool unchecked)
 {
     const auto warn = [&](const char* noun, const std::string& name, const StructureReport& structure) {
-        for (const std::string& warning : require_unrefuted(noun, name, file, structure, unchecked))
-            write_standard_error(fmt::format("warning: {}\n", warning));
+        warn(require_unrefuted(noun, name, file, structure, unchecked));
     };
     for (const VerifiedMorphism& stage : verified.stages) warn("morphism", stage.name, stage.map.structure);
     for (std::size_t k = 1; k < verified.stages.size(); ++k)
@@ -196,20 +186,14 @@ std::string morphism_text(const VerifiedMorphism& verified)
     return out;
 }
 
-void morphism_json(JsonWriter& json, const VerifiedMorphism& verified)
+Record record_of(const VerifiedMorphism& verified)
 {
-    json.begin_object().key("model").value(verified.name);
-    body_json(json, verified);
-    json.key("source");
-    report_json(json, verified.source_name, verified.source);
-    json.key("target");
-    report_json(json, verified.target_name, verified.target);
-    if (!verified.stages.empty()) {
-        json.key("stages").begin_array();
-        for (const VerifiedMorphism& stage : verified.stages) morphism_json(json, stage);
-        json.end_array();
-    }
-    json.end_object();
+    Record record = body_of(verified);
+    record["source"] = record_of(verified.source_name, verified.source);
+    record["target"] = record_of(verified.target_name, verified.target);
+    add_unless_empty(record, "stages",
+                     list_of(verified.stages, [](const VerifiedMorphism& stage) { return record_of(stage); }));
+    return record;
 }
 
 } // namespace lagen

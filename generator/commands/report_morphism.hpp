@@ -2,8 +2,8 @@
 /// A morphism file with both its models decided, for people and for programs.
 #pragma once
 
-#include "emit/json.hpp"
 #include "model/morphism.hpp"
+#include "text/record.hpp"
 #include "verify/verify_morphism.hpp"
 
 namespace lagen {
@@ -26,6 +26,6 @@ void warn_of_morphism(const VerifiedMorphism& verified, const std::string& file,
 
 [[nodiscard]] std::string morphism_text(const VerifiedMorphism& verified);
 /// {"model", "verdict", "trivial", "checks", "rank", "follows", "source": report, "target": report}, and "stages".
-void morphism_json(JsonWriter& json, const VerifiedMorphism& verified);
+[[nodiscard]] Record record_of(const VerifiedMorphism& verified);
 
 } // namespace lagen

@@ -63,34 +63,24 @@ std::string nonholonomic_text(const MechanicsReport& mechanics)
     return text;
 }
 
-void nonholonomic_json(JsonWriter& json, const MechanicsReport& mechanics)
+void add_nonholonomic(Record& record, const MechanicsReport& mechanics)
 {
     if (const auto& integrable = mechanics.integrable) {
-        json.key("integrable").begin_object().key("status").value(to_text(integrable->status));
+        Record& member = record["integrable"] = {{"status", to_text(integrable->status)}};
         if (integrable->status == ProofStatus::refuted) {
-            json.key("bracket").begin_array();
-            for (const std::string& section : integrable->bracket) json.value(section);
-            json.end_array().key("is").begin_object();
-            for (const auto& [name, value] : integrable->components) json.key(name).value(value);
-            json.end_object().key("violates").value(integrable->violates);
+            member["bracket"] = integrable->bracket;
+            member["is"] = object_of(integrable->components, [](const auto& value) { return value; });
+            member["violates"] = integrable->violates;
             if (integrable->witness) {
-                json.key("witness").begin_object();
-                for (const auto& [name, value] : integrable->witness->point) json.key(name).value(to_text(value));
-                json.end_object().key("value").value(integrable->witness->value);
+                member["witness"] = object_of(integrable->witness->point, [](const auto& x) { return to_text(x); });
+                member["value"] = integrable->witness->value;
             }
         }
         if (integrable->status == ProofStatus::proved && !integrable->has_drift && !integrable->moves_with_time)
-            json.key("hint").value("D is a Lie algebroid: kind = \"subbundle\" says more of it");
-        json.end_object();
+            member["hint"] = "D is a Lie algebroid: kind = \"subbundle\" says more of it";
     }
     if (const auto& energy = mechanics.conserved)
-        json.key("conserved")
-            .begin_object()
-            .key("name")
-            .value(energy->name)
-            .key("status")
-            .value(to_text(energy->status))
-            .end_object();
+        record["conserved"] = {{"name", energy->name}, {"status", to_text(energy->status)}};
 }
 
 } // namespace lagen

@@ -40,7 +40,7 @@ const CommandSyntax run_syntax{
     "Generates, compiles and integrates a scene. CSV on standard output unless --output or --format json, or --plot on "
     "a terminal. Of a morphism file: a scene of the source, the motion of the target from the image of its start, and "
     "how far they are apart.",
-    {{"scene", "NAME", "the scene; without it `default`, else the first"},
+    {option::scene,
      {"form", "FORM", run_form_help.c_str()},
      {"method", "METHOD", "see `lagen methods`; without it the scene's, else dop853"},
      {"step", "H", "step of a fixed-step method"},
@@ -53,9 +53,9 @@ const CommandSyntax run_syntax{
      {"at", "T1,T2,..",
       "rows at exactly these times; without --t-end the run ends with the scene's duration or the last of them, "
       "whichever is later"},
-     {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
-     {"bind", "NAMES", bind_help},
-     {"initial", "NAME=VALUE", "an initial value of the scene (may be repeated)"},
+     option::set,
+     option::bind,
+     option::initial,
      {"branch", "N",
       "of a discrete motion that starts from momenta: its first arrow is the N-th that has them, by the distance from "
       "that of short steps; without it that one"},
@@ -80,8 +80,8 @@ const CommandSyntax run_syntax{
      {"no-second-run", nullptr, "say nothing of it"},
      {"reconstruct", nullptr,
       "of a morphism that is bijective on the fibres: lift the motion of the target to the source too"},
-     {"unchecked", nullptr, "go on although the model is refuted"},
-     {"format,f", "FORMAT", "text or json", "text"}}};
+     option::unchecked,
+     option::format}};
 
 /// The variational method that is asked for; null where it is another one.
 const MethodEntry* variational_method(const Options& options, const Model& model)
@@ -114,7 +114,7 @@ void tell(const Options& options, const RunOutcome& outcome, const std::vector<s
           const std::string& picture, bool as_json)
 {
     if (as_json) {
-        write_standard_output(report_json(outcome));
+        write_standard_output(report_json(outcome) + "\n");
     } else {
         const bool spared = !picture.empty() && !options.has("output") && ::isatty(STDOUT_FILENO) == 1;
         if (!options.has("output") && !spared) write_standard_output(to_csv(outcome.table, known));
@@ -148,7 +148,7 @@ ExitCode run_run(Arguments arguments)
 {
     const Options options(run_syntax, arguments);
     if (options.help()) return ExitCode::done;
-    const bool as_json = options.choice("format", {"text", "json"}) == "json";
+    const bool as_json = options.as_json();
     if (options.has("form")) (void)options.choice("form", form_names());
     if (options.has("plot")) require_plot_format(options.get("plot"));
     if (options.has("output")) require_no_picture(options.get("output"));
@@ -196,10 +196,11 @@ ExitCode run_run(Arguments arguments)
     const std::vector<std::string> known = all_names(model);
     const InterruptsHeld held; // between programs, which they reach: rows are written first
     RunOutcome outcome = run.integrate();
-    if (is_interrupted(outcome)) return leave_rows(options, outcome.table, known, report_json(outcome), outcome.t);
+    if (is_interrupted(outcome))
+        return leave_rows(options, outcome.table, known, report_json(outcome) + "\n", outcome.t);
     outcome.action = action_report(outcome, variations);
     if (const std::string file = options.get("output"); !file.empty())
-        write_file(file, file.ends_with(".json") ? report_json(outcome) : to_csv(outcome.table, known));
+        write_file(file, file.ends_with(".json") ? report_json(outcome) + "\n" : to_csv(outcome.table, known));
     std::string picture;
     const bool drawn = is_uninterrupted([&] { picture = draw(options, run, outcome, overlaid, whole); });
     tell(options, outcome, known, picture, as_json);

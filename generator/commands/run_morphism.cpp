@@ -99,27 +99,25 @@ WholeRun run_of(SceneRun& run, std::size_t asked)
     return result;
 }
 
-/// The object alone, without the line's end.
-std::string object_json(const RunOutcome& outcome)
+/// An object of both runs, as JSON already; without a target there is nothing to compare the source with.
+std::string both_runs(const RunOutcome& source, const std::string& target)
 {
-    std::string text = report_json(outcome);
-    text.erase(text.find_last_not_of('\n') + 1);
-    return text;
+    return with_member(with_member("{}", "source", report_json(source)), "target", target);
 }
 
 std::string report_of(const Options& options, const RunOutcome& source, const RunOutcome& target,
                       const RunComparison& comparison)
 {
-    const std::string lift =
-        options.has("reconstruct") ? fmt::format(",\n \"reconstruction\": {}", defect_json(comparison, true)) : "";
-    return fmt::format("{{\"source\": {},\n \"target\": {},\n \"defect\": {}{}}}\n", object_json(source),
-                       object_json(target), defect_json(comparison, false), lift);
+    std::string text = both_runs(source, report_json(target));
+    text = with_member(std::move(text), "defect", to_json(defect_record(comparison, false)));
+    if (options.has("reconstruct"))
+        text = with_member(std::move(text), "reconstruction", to_json(defect_record(comparison, true)));
+    return text + "\n";
 }
 
-/// There is no target to compare the source with.
 std::string report_of_source(const RunOutcome& source)
 {
-    return fmt::format("{{\"source\": {},\n \"target\": null,\n \"defect\": null}}\n", object_json(source));
+    return with_member(both_runs(source, "null"), "defect", "null") + "\n";
 }
 
 /// `known`: the names of both models.
@@ -130,7 +128,7 @@ void tell(const Options& options, const RunOutcome& source, const RunOutcome& ta
     const std::string report = report_of(options, source, target, comparison);
     if (options.has("output"))
         write_file(options.get("output"), options.get("output").ends_with(".json") ? report : csv);
-    if (options.get("format") == "json") {
+    if (options.as_json()) {
         write_standard_output(report);
     } else {
         if (!options.has("output")) write_standard_output(csv);
@@ -166,7 +164,7 @@ void add_lifts(const LiftedTarget& lifted, const SceneRun& source, Scene& image,
 /// Of a source that came to no row there is nothing to compare.
 ExitCode tell_alone(const Options& options, const RunOutcome& source)
 {
-    if (options.get("format") == "json")
+    if (options.as_json())
         write_standard_output(report_of_source(source));
     else
         write_standard_error(report_text(source));

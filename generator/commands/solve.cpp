@@ -8,13 +8,13 @@
 #include "commands/machine/write_file.hpp"
 #include "commands/scene/scene_options.hpp"
 #include "commands/scene/start_state.hpp"
-#include "emit/json.hpp"
 #include "equations/symbolic_model.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/evaluate.hpp"
 #include "graph/core/lower.hpp"
 #include "model/scene_form.hpp"
 #include "pipeline.hpp"
+#include "text/record.hpp"
 #include "verify/relative_equilibria.hpp"
 
 #include <fmt/format.h>
@@ -31,13 +31,13 @@ const CommandSyntax solve_syntax{"solve",
                                  "values of these at the start of "
                                  "a scene. Each is certified, and its stability proved where it can be.",
                                  {{"relative-equilibria", nullptr, "what is solved for"},
-                                  {"scene", "NAME", "the scene; without it `default`, else the first"},
-                                  {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
-                                  {"initial", "NAME=VALUE", "an initial value of the scene (may be repeated)"},
+                                  option::scene,
+                                  option::set,
+                                  option::initial,
                                   {"starts", "N", "from how many random points they are sought", "600"},
-                                  {"output,o", "FILE", "write there instead of to standard output"},
-                                  {"unchecked", nullptr, "go on although the model is refuted"},
-                                  {"format,f", "FORMAT", "text or json", "text"}}};
+                                  option::output,
+                                  option::unchecked,
+                                  option::format}};
 
 using NamedValues = std::vector<std::pair<std::string, double>>;
 
@@ -120,66 +120,53 @@ std::string solution_text(const Solution& solution, const Graph& graph)
     return text;
 }
 
-void values_json(JsonWriter& json, const char* key, const NamedValues& values)
+const char* second_variation_of(const RelativeEquilibrium& found)
 {
-    json.key(key).begin_object();
-    for (const auto& [name, value] : values) json.key(name).value(value);
-    json.end_object();
+    return found.definite > 0   ? "positive definite"
+           : found.definite < 0 ? "negative definite"
+                                : "not shown to be definite";
 }
 
-std::string solution_json(const Solution& solution, const Graph& graph)
+Record solution_record(const Solution& solution, const Graph& graph)
 {
     const RelativeEquilibria& all = solution.equilibria;
-    JsonWriter json;
-    json.begin_object().key("model").value(solution.model.name).key("scene").value(solution.scene);
-    json.key("conserved").begin_array();
-    for (std::size_t i = 0; i < all.conserved.size(); ++i) {
-        json.begin_object()
-            .key("function")
-            .value(solution.conserved[i])
-            .key("value")
-            .value(all.conserved[i].level.middle());
-        json.key("casimir").value(all.conserved[i].casimir).end_object();
-    }
-    json.end_array().key("relative_equilibria").begin_array();
+    Record record = {{"model", solution.model.name}, {"scene", solution.scene}};
+    Record& conserved = record["conserved"] = Record::array();
+    for (std::size_t i = 0; i < all.conserved.size(); ++i)
+        conserved.push_back({{"function", solution.conserved[i]},
+                             {"value", all.conserved[i].level.middle()},
+                             {"casimir", all.conserved[i].casimir}});
+    Record& equilibria = record["relative_equilibria"] = Record::array();
     for (std::size_t e = 0; e < all.found.size(); ++e) {
         const RelativeEquilibrium& found = all.found[e];
-        NamedValues state, rates;
-        for (std::size_t k = 0; k < all.coordinates.size(); ++k)
-            state.emplace_back(graph.input_name(all.coordinates[k]), found.z[k]);
-        for (std::size_t k = 0; k < found.cyclic.size(); ++k)
-            rates.emplace_back(graph.input_name(all.cyclic[k]), found.cyclic[k]);
-        json.begin_object();
-        values_json(json, "state", state);
-        values_json(json, "velocities", solution.velocities[e]);
-        values_json(json, "rates", rates);
-        if (!found.exact.empty()) {
-            json.key("exact").begin_object();
-            for (std::size_t k = 0; k < all.coordinates.size(); ++k)
-                json.key(graph.input_name(all.coordinates[k])).value(found.exact[k].get_str());
-            json.end_object();
+        Record state = Record::object(), rates = Record::object(), exact = Record::object();
+        for (std::size_t k = 0; k < all.coordinates.size(); ++k) {
+            const std::string& name = graph.input_name(all.coordinates[k]);
+            state[name] = found.z[k];
+            if (!found.exact.empty()) exact[name] = found.exact[k].get_str();
         }
-        json.key("energy").value(found.energy).key("multipliers").begin_array();
-        for (const double lambda : found.multipliers) json.value(lambda);
-        json.end_array().key("certified").value(found.certified).key("radius").value(found.radius);
-        json.key("flows").value(found.flows).key("dimension").value(found.dimension);
-        json.key("second_variation")
-            .value(found.definite > 0   ? "positive definite"
-                   : found.definite < 0 ? "negative definite"
-                                        : "not shown to be definite");
-        if (!found.definite_at.empty()) {
-            json.key("definite_at").begin_array();
-            for (const double lambda : found.definite_at) json.value(lambda);
-            json.end_array();
-        }
-        json.key("eigenvalues").begin_array();
-        for (const proof::Eigenvalue& each : found.eigenvalues)
-            for (std::size_t k = 0; k < each.multiplicity; ++k)
-                json.begin_array().value(each.real).value(each.imaginary).end_array();
-        json.end_array().key("stability").value(to_text(found.stability));
-        json.key("reason").value(reason_of(found)).end_object();
+        for (std::size_t k = 0; k < found.cyclic.size(); ++k) rates[graph.input_name(all.cyclic[k])] = found.cyclic[k];
+        Record each = {{"state", state},
+                       {"velocities", object_of(solution.velocities[e], [](double value) { return value; })},
+                       {"rates", rates}};
+        add_unless_empty(each, "exact", exact);
+        each.update({{"energy", found.energy},
+                     {"multipliers", found.multipliers},
+                     {"certified", found.certified},
+                     {"radius", found.radius},
+                     {"flows", found.flows},
+                     {"dimension", found.dimension},
+                     {"second_variation", second_variation_of(found)}});
+        add_unless_empty(each, "definite_at", found.definite_at);
+        Record& eigenvalues = each["eigenvalues"] = Record::array();
+        for (const proof::Eigenvalue& lambda : found.eigenvalues)
+            for (std::size_t k = 0; k < lambda.multiplicity; ++k)
+                eigenvalues.push_back({lambda.real, lambda.imaginary});
+        each["stability"] = to_text(found.stability);
+        each["reason"] = reason_of(found);
+        equilibria.push_back(std::move(each));
     }
-    return json.end_array().end_object().text() + "\n";
+    return record;
 }
 
 void require_autonomous(const Model& model, const Graph& graph, const System& system, const HamiltonianNodes& H)
@@ -197,7 +184,7 @@ ExitCode run_solve(Arguments arguments)
 {
     const Options options(solve_syntax, arguments);
     if (options.help()) return ExitCode::done;
-    const bool as_json = options.choice("format", {"text", "json"}) == "json";
+    const bool as_json = options.as_json();
     if (options.has("output")) require_writable(options.get("output"));
     if (!options.has("relative-equilibria"))
         throw UsageError("lagen solve: give --relative-equilibria, which is what it solves for");
@@ -205,7 +192,7 @@ ExitCode run_solve(Arguments arguments)
     CheckedModel checked = load(model_path(options.positional()[0]), options.settings(), options.has("unchecked"));
     const Model& model = checked.model;
     require_apart(options, model);
-    for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
+    warn(checked.warnings);
     if (checked.system.distribution || checked.system.control)
         throw MathematicsError(fmt::format("relative equilibria are those of Hamilton's equations of an L or H, and "
                                            "model '{}' is something else",
@@ -248,7 +235,7 @@ ExitCode run_solve(Arguments arguments)
         for (std::size_t a = 0; a < y.size(); ++a) velocities.emplace_back(model.fibre.coordinates[a].name, y[a]);
     }
     write_file(options.has("output") ? options.get("output") : "-",
-               as_json ? solution_json(solution, graph) : solution_text(solution, graph));
+               as_json ? to_json(solution_record(solution, graph)) + "\n" : solution_text(solution, graph));
     return ExitCode::done;
 }
 

@@ -30,7 +30,7 @@ const CommandSyntax sweep_syntax{
     {{"output,o", "FILE", "the table; FILE.partial until it is complete"},
      {"set", "NAME=RANGE", "a parameter's range, or one value for all rows (may be repeated)"},
      {"initial", "NAME=RANGE", "the same of an initial value (may be repeated)"},
-     {"bind", "NAMES", bind_help},
+     option::bind,
      {"random", "N", "N rows, drawn uniformly from the ranges"},
      {"seed", "S", "of the draws; row k follows from S and k alone", "0"},
      {"ensemble", "FILE", "a row for each row of a CSV file, whose heading names parameters and initial values"},
@@ -38,14 +38,14 @@ const CommandSyntax sweep_syntax{
      {"resume", nullptr, "go on where an interrupted call of the same command ended"},
      {"shard", "K/N", "rows K, K + N, .. alone; without it rank and size that mpirun, srun or a Slurm array set"},
      {"merge", nullptr, "put the parts of a sweep together"},
-     {"scene", "NAME", "the scene; without it `default`, else the first"},
+     option::scene,
      {"form", "FORM", sweep_form_help.c_str()},
      {"method", "METHOD", "see `lagen methods`; without it the scene's, else dop853"},
      {"step", "H", "step of a fixed-step method"},
      {"time-scale", "EXPR", "of a splitting: steps of H times this function of the state, as in `lagen run`"},
      {"tolerance", "TOL", "relative and absolute tolerance of an adaptive method; without it the scene's, else 1e-10"},
      {"t-end", "T", "end of each run; without it the scene's duration"},
-     {"unchecked", nullptr, "go on although the model is refuted"}}};
+     option::unchecked}};
 
 /// What the rows follow from, as it was typed, in a line.
 std::string command_of(const Options& options)
@@ -183,7 +183,7 @@ ExitCode run_sweep(Arguments arguments)
     scene = with_swept(model, std::move(scene), rows);
     const MethodEntry& method = method_of(options, scene);
     Preparation preparation(options, checked, scene, method, sweep_driver);
-    for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
+    warn(checked.warnings);
     const std::vector<long double> parameters = finite_numbers(SceneEvaluator(model, scene).parameters({}), scene);
     StartState start([&](bool decided) -> const CheckedModel& { return preparation.checked(parameters, decided); },
                      scene.form);
@@ -206,9 +206,9 @@ ExitCode run_sweep(Arguments arguments)
     file.complete();
     write_standard_error(summary(path, file, run.reasons()));
     if (run.unproved() > 0)
-        write_standard_error(fmt::format(
-            "warning: {}{} left out with left_domain: {}\nhint: conditions on parameters in [base] domain under which "
-            "it can be proved make it hold for all of them\n",
+        warn(fmt::format(
+            "{}{} left out with left_domain: {}\nhint: conditions on parameters in [base] domain under which "
+            "it can be proved make it hold for all of them",
             resumed ? "at least " : "", run.unproved() == 1 ? "1 row is" : fmt::format("{} rows are", run.unproved()),
             proved_for_alone(record.proved_for)));
     write_standard_error(small_lanes_warning(run, resumed));

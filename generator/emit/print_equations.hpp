@@ -3,6 +3,7 @@
 #pragma once
 
 #include "notation/equation_set.hpp"
+#include "text/record.hpp"
 
 namespace lagen {
 
@@ -16,6 +17,7 @@ enum class LongLines {
 [[nodiscard]] std::string print_text(const EquationSet& equations, LongLines long_lines = LongLines::broken);
 [[nodiscard]] std::string print_latex(const EquationSet& equations); ///< a compilable fragment: align* blocks (amsmath)
 [[nodiscard]] std::string print_json(const EquationSet& equations);
+[[nodiscard]] Record record_of(const EquationSet& equations); ///< what print_json prints
 
 /// One tree as UTF-8 mathematics / LaTeX.
 [[nodiscard]] std::string latex_of(const Tree& tree, const EquationSet& symbols);

@@ -16,9 +16,9 @@
 /// d symbol, and "form", d e^symbol, the right side is the sum of value e^{basis[0]} ^ e^{basis[1]} .. of the groups,
 /// each {"label", "value", "basis"}; of "section", e_symbol, and "commutator", [e_symbol, e_other], that of value
 /// e_{basis[0]}.
-#include "emit/json.hpp"
 #include "emit/print_equations.hpp"
 #include "emit/print_equations_terms.hpp"
+#include "text/record.hpp"
 
 namespace lagen {
 namespace {
@@ -32,108 +32,96 @@ std::string right_text(const Equation& equation)
     return to_text(terms.size() == 1 ? terms[0] : add(terms));
 }
 
-void write_names(JsonWriter& json, const std::vector<std::string>& names)
+const char* kind_of(LeftSide side)
 {
-    json.begin_array();
-    for (const std::string& name : names) json.value(name);
-    json.end_array();
+    switch (side) {
+    case LeftSide::time_derivative: return "time_derivative";
+    case LeftSide::symbol: return "symbol";
+    case LeftSide::zero: return "zero";
+    case LeftSide::bracket: return "bracket";
+    case LeftSide::differential: return "differential";
+    case LeftSide::form: return "form";
+    case LeftSide::component: return "component";
+    case LeftSide::section: return "section";
+    case LeftSide::commutator: break;
+    }
+    return "commutator";
 }
 
-void write_left(JsonWriter& json, const Equation& equation)
+Record left_of(const Equation& equation)
 {
-    json.key("left").begin_object();
-    switch (equation.left) {
-    case LeftSide::time_derivative: json.key("kind").value("time_derivative"); break;
-    case LeftSide::symbol: json.key("kind").value("symbol"); break;
-    case LeftSide::zero: json.key("kind").value("zero"); break;
-    case LeftSide::bracket: json.key("kind").value("bracket"); break;
-    case LeftSide::differential: json.key("kind").value("differential"); break;
-    case LeftSide::form: json.key("kind").value("form"); break;
-    case LeftSide::component: json.key("kind").value("component"); break;
-    case LeftSide::section: json.key("kind").value("section"); break;
-    case LeftSide::commutator: json.key("kind").value("commutator"); break;
-    }
-    if (equation.left != LeftSide::zero) json.key("symbol").value(equation.symbol);
-    if (equation.left == LeftSide::bracket || equation.left == LeftSide::commutator)
-        json.key("other").value(equation.other);
-    if (equation.left == LeftSide::component) write_names(json.key("arguments"), equation.arguments);
-    if (!equation.mass.empty()) {
-        json.key("mass").begin_array();
-        for (const TermGroup& entry : equation.mass)
-            json.begin_object().key("symbol").value(entry.label).key("value").value(to_text(entry.value)).end_object();
-        json.end_array();
-    }
-    json.end_object();
+    Record left = {{"kind", kind_of(equation.left)}};
+    if (equation.left != LeftSide::zero) left["symbol"] = equation.symbol;
+    if (equation.left == LeftSide::bracket || equation.left == LeftSide::commutator) left["other"] = equation.other;
+    if (equation.left == LeftSide::component) left["arguments"] = equation.arguments;
+    if (!equation.mass.empty())
+        left["mass"] = list_of(equation.mass, [](const TermGroup& entry) {
+            return Record{{"symbol", entry.label}, {"value", to_text(entry.value)}};
+        });
+    return left;
 }
 
-void write_equation(JsonWriter& json, const Equation& equation)
+Record record_of(const Equation& equation)
 {
-    json.begin_object();
-    write_left(json, equation);
+    Record record = {{"left", left_of(equation)}};
     if (equation.relation != Relation::equal)
-        json.key("relation").value(equation.relation == Relation::at_least ? "at_least" : "at_most");
+        record["relation"] = equation.relation == Relation::at_least ? "at_least" : "at_most";
     const bool of_forms =
         equation.left == LeftSide::differential || equation.left == LeftSide::form ||
         equation.left == LeftSide::section || equation.left == LeftSide::commutator ||
         std::ranges::any_of(equation.groups, [](const TermGroup& group) { return !group.basis.empty(); });
-    if (!of_forms) json.key("right").value(right_text(equation));
-    json.key("groups").begin_array();
-    for (const TermGroup& group : equation.groups) {
-        json.begin_object().key("label").value(group.label).key("value").value(to_text(group.value));
-        if (!group.basis.empty()) write_names(json.key("basis"), group.basis);
-        json.end_object();
-    }
-    json.end_array().end_object();
+    if (!of_forms) record["right"] = right_text(equation);
+    record["groups"] = list_of(equation.groups, [](const TermGroup& group) {
+        Record each = {{"label", group.label}, {"value", to_text(group.value)}};
+        add_unless_empty(each, "basis", group.basis);
+        return each;
+    });
+    return record;
 }
 
-void write_statement(JsonWriter& json, const DecidedStatement& statement)
+Record record_of(const DecidedStatement& statement)
 {
-    json.begin_object().key("formula").value(statement.formula).key("status").value(statement.status);
-    if (!statement.component.empty()) write_names(json.key("component"), statement.component);
-    if (!statement.residual.empty()) json.key("residual").value(statement.residual);
+    Record record = {{"formula", statement.formula}, {"status", statement.status}};
+    add_unless_empty(record, "component", statement.component);
+    add_unless_empty(record, "residual", statement.residual);
     if (!statement.witness.empty()) {
-        json.key("witness").begin_object();
-        for (const auto& [name, value] : statement.witness) json.key(name).value(value);
-        json.end_object().key("value").value(statement.value);
+        record["witness"] = object_of(statement.witness, [](const auto& value) { return value; });
+        record["value"] = statement.value;
     }
-    if (!statement.evidence.empty()) json.key("evidence").value(statement.evidence);
-    json.end_object();
+    add_unless_empty(record, "evidence", statement.evidence);
+    return record;
 }
 
-void write_blocks(JsonWriter& json, const std::vector<EquationBlock>& blocks)
+Record record_of(const EquationBlock& block)
 {
-    json.begin_array();
-    for (const EquationBlock& block : blocks) {
-        json.begin_object().key("title").value(block.title).key("formula").value(block.formula);
-        json.key("equations").begin_array();
-        for (const Equation& equation : block.equations) write_equation(json, equation);
-        json.end_array().end_object();
-    }
-    json.end_array();
+    return {{"title", block.title},
+            {"formula", block.formula},
+            {"equations", list_of(block.equations, [](const Equation& each) { return record_of(each); })}};
 }
 
 } // namespace
 
+Record record_of(const EquationSet& equations)
+{
+    const auto blocks = [](const std::vector<EquationBlock>& list) {
+        return list_of(list, [](const EquationBlock& each) { return record_of(each); });
+    };
+    Record record = {{"model", equations.model},
+                     {"title", equations.title},
+                     {"form", equations.form},
+                     {"blocks", blocks(equations.blocks)}};
+    add_unless_empty(record, "given", blocks(equations.given));
+    add_unless_empty(record, "where", list_of(equations.where, [](const WhereEntry& entry) {
+                         return Record{{"symbol", entry.symbol}, {"value", to_text(entry.value)}};
+                     }));
+    add_unless_empty(record, "statements",
+                     list_of(equations.statements, [](const DecidedStatement& each) { return record_of(each); }));
+    return record;
+}
+
 std::string print_json(const EquationSet& equations)
 {
-    JsonWriter json;
-    json.begin_object().key("model").value(equations.model).key("title").value(equations.title);
-    json.key("form").value(equations.form);
-    write_blocks(json.key("blocks"), equations.blocks);
-    if (!equations.given.empty()) write_blocks(json.key("given"), equations.given);
-    if (!equations.where.empty()) {
-        json.key("where").begin_array();
-        for (const WhereEntry& entry : equations.where)
-            json.begin_object().key("symbol").value(entry.symbol).key("value").value(to_text(entry.value)).end_object();
-        json.end_array();
-    }
-    if (!equations.statements.empty()) {
-        json.key("statements").begin_array();
-        for (const DecidedStatement& statement : equations.statements) write_statement(json, statement);
-        json.end_array();
-    }
-    json.end_object();
-    return json.text();
+    return to_json(record_of(equations));
 }
 
 } // namespace lagen

@@ -33,7 +33,7 @@ Table table(const std::string& rows)
 std::string told(const std::string& rows, const std::string& finer, bool by_number = false)
 {
     const std::optional<StateAccuracy> accuracy = accuracy_of(table(rows), table(finer), by_number);
-    return accuracy ? text_of(*accuracy) + " " + json_of(*accuracy) : "nothing";
+    return accuracy ? text_of(*accuracy) + " " + to_json(record_of(*accuracy)) : "nothing";
 }
 
 RunOutcome that_took(double seconds)

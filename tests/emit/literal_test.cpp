@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "emit/print_literal.hpp"
 
-#include "emit/json.hpp"
 #include "emit/order_body.hpp"
 #include "emit/spell.hpp"
 #include "emit/unroll_solve.hpp"
@@ -71,13 +70,4 @@ TEST_CASE("elimination by least degree leaves the hub of an arrow to the end", "
     const std::vector<std::vector<bool>> arrow{
         {true, true, true, true}, {true, true, false, false}, {true, false, true, false}, {true, false, false, true}};
     CHECK(least_degree_order(arrow) == std::vector<std::size_t>{1, 2, 0, 3});
-}
-
-TEST_CASE("JSON is written in order, escaped, with shortest numbers", "[emit]")
-{
-    JsonWriter json;
-    json.begin_object().key("a\n\"").value("b\\\x01").key("list").begin_array();
-    json.value(0.1).value(std::size_t{3}).value(true).null().value(std::numeric_limits<double>::quiet_NaN());
-    json.begin_object().end_object().end_array().key("e").value(1e300).end_object();
-    CHECK(json.text() == "{\"a\\n\\\"\": \"b\\\\\\u0001\", \"list\": [0.1, 3, true, null, null, {}], \"e\": 1e+300}");
 }

@@ -138,13 +138,13 @@ TEST_CASE("a backward include is found")
                               {"#include \"graph/graph.hpp\"", "#include \"model/model.hpp\""}};
     const SourceText runtime{
         "runtime/include/lagen/x.hpp",
-        {"#include \"lagen/status.hpp\"", " # include \"emit/json.hpp\"", "#include \"lagen_run/driver.hpp\""}};
-    const SourceText generator{"generator/emit/json.cpp", {"#include \"lagen/status.hpp\""}};
+        {"#include \"lagen/status.hpp\"", " # include \"emit/header.hpp\"", "#include \"lagen_run/driver.hpp\""}};
+    const SourceText generator{"generator/emit/header.cpp", {"#include \"lagen/status.hpp\""}};
     CHECK(backward_includes({backward, runtime, generator}, planned_arrows()) ==
           std::vector<std::string>{"generator/graph/graph.cpp:2 includes \"model/model.hpp\" of model",
-                                   "runtime/include/lagen/x.hpp:2 includes \"emit/json.hpp\" of emit",
+                                   "runtime/include/lagen/x.hpp:2 includes \"emit/header.hpp\" of emit",
                                    "runtime/include/lagen/x.hpp:3 includes \"lagen_run/driver.hpp\" of program",
-                                   "generator/emit/json.cpp:1 includes \"lagen/status.hpp\" of runtime"});
+                                   "generator/emit/header.cpp:1 includes \"lagen/status.hpp\" of runtime"});
 }
 
 TEST_CASE("every include between the folders of a room follows an arrow of the room")
@@ -162,7 +162,7 @@ TEST_CASE("every include between the folders of a room follows an arrow of the r
         "generator/graph/core/graph.cpp",
         {"#include \"graph/core/graph.hpp\"", "#include \"graph/simplify/form.hpp\"", "#include \"diagnostic.hpp\""}};
     const SourceText forward{"generator/graph/kernel.hpp", {"#include \"graph/unknowns/implicit.hpp\""}};
-    const SourceText other{"generator/emit/json.cpp", {"#include \"graph/kernel.hpp\""}};
+    const SourceText other{"generator/emit/header.cpp", {"#include \"graph/kernel.hpp\""}};
     CHECK(backward_folder_includes({backward, forward, other}) ==
           std::vector<std::string>{"generator/graph/core/graph.cpp:2 includes \"graph/simplify/form.hpp\""});
 }

@@ -127,10 +127,9 @@ bool confirm_accuracy(const AccurateMethod& accurate, const RunRecord& record, P
     Table rows = states_with(parameter, method, record, input);
     if (rows.count() == 0) { // the run itself will say why
         use_parameter(parameter, method, input);
-        write_standard_error(
-            fmt::format("warning: accuracy {:g} is not confirmed: {} with {} {:.3g} does not come to the "
-                        "end\n",
-                        accurate.accuracy, method.name, what, parameter));
+        warn(fmt::format("accuracy {:g} is not confirmed: {} with {} {:.3g} does not come to the "
+                         "end",
+                         accurate.accuracy, method.name, what, parameter));
         return false;
     }
     for (int k = 0; k < most_confirmations; ++k) {
@@ -153,10 +152,10 @@ bool confirm_accuracy(const AccurateMethod& accurate, const RunRecord& record, P
         parameter = finer;
         rows = std::move(finer_rows);
     }
-    write_standard_error(fmt::format("warning: accuracy {:g} is not confirmed: {} with {} {:.3g} and with the next one "
-                                     "differ by {:.2g}\n",
-                                     accurate.accuracy, method.name, what,
-                                     static_cast<double>(method.adaptive ? *input.relative : *input.step), distance));
+    warn(fmt::format("accuracy {:g} is not confirmed: {} with {} {:.3g} and with the next one "
+                     "differ by {:.2g}",
+                     accurate.accuracy, method.name, what,
+                     static_cast<double>(method.adaptive ? *input.relative : *input.step), distance));
     return false;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/chart/report.hpp"
 
-#include "emit/json.hpp"
+#include "text/record.hpp"
 
 #include <fmt/core.h>
 
@@ -12,34 +12,40 @@ namespace lagen {
 
 namespace {
 
-void point_json(JsonWriter& json, const ChartPoint& point)
+Record record_of(const ChartPoint& point)
 {
-    json.begin_object();
-    if (!point.peer.empty()) json.key("peer").value(point.peer);
-    json.key("method").value(point.method).key("parameter").value(point.parameter).key("error");
-    if (point.error)
-        json.value(*point.error);
-    else
-        json.null();
-    json.key("invariants").begin_object();
-    for (const auto& [name, drift] : point.drifts) json.key(name).value(drift);
-    json.end_object().key("seconds").value(point.seconds).key("spread").value(point.spread);
-    json.key("rhs_calls").value(point.rhs_calls).key("steps").value(point.steps).key("rejected").value(point.rejected);
-    json.key("status").value(point.status).end_object();
+    Record record = Record::object();
+    add_unless_empty(record, "peer", point.peer);
+    record.update({{"method", point.method},
+                   {"parameter", point.parameter},
+                   {"error", or_null(point.error)},
+                   {"invariants", object_of(point.drifts, [](double drift) { return drift; })},
+                   {"seconds", point.seconds},
+                   {"spread", point.spread},
+                   {"rhs_calls", point.rhs_calls},
+                   {"steps", point.steps},
+                   {"rejected", point.rejected},
+                   {"status", point.status}});
+    return record;
 }
 
-void best_json(JsonWriter& json, const Chart& chart)
+/// The cheapest point of each error that is reached.
+Record best_of(const Chart& chart)
 {
-    json.key("best").begin_array();
+    Record list = Record::array();
     for (const double error : charted_errors) {
         const ChartPoint* best = cheapest_within(chart.points, error);
         if (best == nullptr) continue;
-        json.begin_object().key("error").value(error);
-        if (!best->peer.empty()) json.key("peer").value(best->peer);
-        json.key("method").value(best->method).key("parameter").value(best->parameter).key("seconds");
-        json.value(best->seconds).key("rhs_calls").value(best->rhs_calls).key("steps").value(best->steps).end_object();
+        Record each = {{"error", error}};
+        add_unless_empty(each, "peer", best->peer);
+        each.update({{"method", best->method},
+                     {"parameter", best->parameter},
+                     {"seconds", best->seconds},
+                     {"rhs_calls", best->rhs_calls},
+                     {"steps", best->steps}});
+        list.push_back(std::move(each));
     }
-    json.end_array();
+    return list;
 }
 
 std::vector<std::string> drift_names(const Chart& chart)
@@ -157,27 +163,26 @@ std::vector<std::string> charted_invariants(const Chart& chart)
     return names;
 }
 
+Record record_of(const std::vector<LeftOutMethod>& left_out)
+{
+    return list_of(left_out, [](const LeftOutMethod& each) {
+        return Record{{"method", each.method}, {"reason", each.reason}};
+    });
+}
+
 std::string chart_json(const Chart& chart)
 {
-    JsonWriter json;
-    json.begin_object().key("model").value(chart.model).key("scene").value(chart.scene).key("form").value(chart.form);
-    json.key("start").value(chart.start).key("end").value(chart.end).key("times").begin_array();
-    for (const double time : chart.times) json.value(time);
-    json.end_array();
-    if (!chart.shortened.empty()) json.key("shortened").value(chart.shortened);
-    json.key("reference").begin_object().key("error").value(chart.reference_error).key("methods").begin_array();
-    for (const std::string& method : chart.reference_methods) json.value(method);
-    json.end_array().end_object();
-    json.key("machine").value(chart.machine).key("compiler").value(chart.compiler);
-    json.key("repeats").value(chart.repeats).key("points").begin_array();
-    for (const ChartPoint& point : chart.points) point_json(json, point);
-    json.end_array();
-    best_json(json, chart);
-    json.key("left_out").begin_array();
-    for (const LeftOutMethod& method : chart.left_out)
-        json.begin_object().key("method").value(method.method).key("reason").value(method.reason).end_object();
-    json.end_array().end_object();
-    return json.text() + "\n";
+    Record record = {{"model", chart.model}, {"scene", chart.scene}, {"form", chart.form},
+                     {"start", chart.start}, {"end", chart.end},     {"times", chart.times}};
+    add_unless_empty(record, "shortened", chart.shortened);
+    record.update({{"reference", {{"error", chart.reference_error}, {"methods", chart.reference_methods}}},
+                   {"machine", chart.machine},
+                   {"compiler", chart.compiler},
+                   {"repeats", chart.repeats},
+                   {"points", list_of(chart.points, [](const ChartPoint& point) { return record_of(point); })},
+                   {"best", best_of(chart)},
+                   {"left_out", record_of(chart.left_out)}});
+    return to_json(record) + "\n";
 }
 
 std::string chart_csv(const Chart& chart)

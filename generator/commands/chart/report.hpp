@@ -3,11 +3,13 @@
 #pragma once
 
 #include "commands/chart/chart.hpp"
+#include "text/record.hpp"
 
 namespace lagen {
 
 /// The object of chart.json.
 [[nodiscard]] std::string chart_json(const Chart& chart);
+[[nodiscard]] Record record_of(const std::vector<LeftOutMethod>& left_out);
 
 /// RFC 4180: a line a point; a field that does not apply is empty.
 [[nodiscard]] std::string chart_csv(const Chart& chart);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/chart/report.hpp"
 #include "commands/chart/stability_chart.hpp"
 #include "commands/scene/table.hpp"
-#include "emit/json.hpp"
+#include "text/record.hpp"
 
 #include <fmt/core.h>
 
@@ -12,52 +13,32 @@ namespace lagen {
 namespace {
 
 /// The words of the table with the lengths and quantities of this chart.
-void criteria_json(JsonWriter& json, const StabilityChart& chart)
+Record criteria_of(const StabilityChart& chart)
 {
-    json.key("criteria").begin_object();
-    json.key("followed").value(chart.followed.empty() ? "the largest entry of the state" : chart.followed);
-    json.key("scale").value(chart.followed.empty()
-                                ? "its largest value along the motion"
-                                : "the largest difference along the motion that setting velocities or momenta to 0 "
-                                  "makes: of an energy, the kinetic energy");
-    for (const OutcomeEntry& outcome : outcome_table) json.key(outcome.name).value(outcome.criterion);
-    json.key("limit").value(
-        "the step at which the fastest oscillation along the motion, omega, reaches the end of the "
-        "method's interval on x'' = -omega^2 x, or of a discrete motion that from which on the momenta of "
-        "the start have no arrow; null where there is no such step, or none is known");
-    json.end_object();
+    Record criteria = {
+        {"followed", chart.followed.empty() ? "the largest entry of the state" : chart.followed},
+        {"scale", chart.followed.empty()
+                      ? "its largest value along the motion"
+                      : "the largest difference along the motion that setting velocities or momenta to 0 "
+                        "makes: of an energy, the kinetic energy"}};
+    for (const OutcomeEntry& outcome : outcome_table) criteria[outcome.name] = outcome.criterion;
+    criteria["limit"] = "the step at which the fastest oscillation along the motion, omega, reaches the end of the "
+                        "method's interval on x'' = -omega^2 x, or of a discrete motion that from which on the momenta "
+                        "of the start have no arrow; null where there is no such step, or none is known";
+    return criteria;
 }
 
-void optional_json(JsonWriter& json, const std::optional<double>& number)
+/// What `part` gives of each cell, a list a step.
+template <class Part>
+Record cells_of(const StabilityChart& chart, const ChartedMethod& method, Part part)
 {
-    if (number)
-        json.value(*number);
-    else
-        json.null();
-}
-
-void methods_json(JsonWriter& json, const StabilityChart& chart)
-{
-    const std::size_t steps = chart.axes[0].values.size();
-    json.key("methods").begin_object();
-    for (const ChartedMethod& method : chart.methods) {
-        json.key(method.name).begin_object().key("outcome").begin_array();
-        for (std::size_t i = 0; i < steps; ++i) {
-            json.begin_array();
-            for (std::size_t j = 0; j < chart.columns.size(); ++j) json.value(chart.cell(method, i, j).outcome);
-            json.end_array();
-        }
-        json.end_array().key("status").begin_array();
-        for (std::size_t i = 0; i < steps; ++i) {
-            json.begin_array();
-            for (std::size_t j = 0; j < chart.columns.size(); ++j) json.value(chart.cell(method, i, j).status);
-            json.end_array();
-        }
-        json.end_array().key("limit").begin_array();
-        for (const std::optional<double>& limit : method.limits) optional_json(json, limit);
-        json.end_array().end_object();
+    Record rows = Record::array();
+    for (std::size_t i = 0; i < chart.axes[0].values.size(); ++i) {
+        Record row = Record::array();
+        for (std::size_t j = 0; j < chart.columns.size(); ++j) row.push_back(chart.cell(method, i, j).*part);
+        rows.push_back(std::move(row));
     }
-    json.end_object();
+    return rows;
 }
 
 bool has_drift(const StabilityCell& cell)
@@ -84,24 +65,25 @@ double bounded_up_to(const StabilityChart& chart, const ChartedMethod& method)
 
 std::string stability_json(const StabilityChart& chart)
 {
-    JsonWriter json;
-    json.begin_object().key("model").value(chart.model).key("scene").value(chart.scene).key("form").value(chart.form);
-    json.key("start").value(chart.start).key("end").value(chart.end).key("axes").begin_array();
-    for (const StabilityAxis& axis : chart.axes) {
-        json.begin_object().key("name").value(axis.name).key("values").begin_array();
-        for (const double value : axis.values) json.value(value);
-        json.end_array().end_object();
-    }
-    json.end_array().key("omega").begin_array();
-    for (const ColumnFigures& column : chart.columns) json.value(column.omega);
-    json.end_array();
-    methods_json(json, chart);
-    criteria_json(json, chart);
-    json.key("left_out").begin_array();
-    for (const LeftOutMethod& method : chart.left_out)
-        json.begin_object().key("method").value(method.method).key("reason").value(method.reason).end_object();
-    json.end_array().end_object();
-    return json.text() + "\n";
+    Record methods = Record::object();
+    for (const ChartedMethod& method : chart.methods)
+        methods[method.name] = {{"outcome", cells_of(chart, method, &StabilityCell::outcome)},
+                                {"status", cells_of(chart, method, &StabilityCell::status)},
+                                {"limit", list_of(method.limits, [](const auto& limit) { return or_null(limit); })}};
+    const Record record = {{"model", chart.model},
+                           {"scene", chart.scene},
+                           {"form", chart.form},
+                           {"start", chart.start},
+                           {"end", chart.end},
+                           {"axes", list_of(chart.axes,
+                                            [](const StabilityAxis& axis) {
+                                                return Record{{"name", axis.name}, {"values", axis.values}};
+                                            })},
+                           {"omega", list_of(chart.columns, [](const ColumnFigures& column) { return column.omega; })},
+                           {"methods", methods},
+                           {"criteria", criteria_of(chart)},
+                           {"left_out", record_of(chart.left_out)}};
+    return to_json(record) + "\n";
 }
 
 std::string stability_csv(const StabilityChart& chart)

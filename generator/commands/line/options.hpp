@@ -52,6 +52,8 @@ class Options {
 
     /// The value of `name`, which must be one of `allowed`.
     [[nodiscard]] std::string choice(const std::string& name, const std::vector<std::string>& allowed) const;
+    /// Whether `--format` is json; UsageError where it is neither that nor text.
+    [[nodiscard]] bool as_json() const { return choice("format", {"text", "json"}) == "json"; }
     /// The `--set name=value` entries, then those of `--bind name=value,name`. UsageError where both give a value to
     /// the same parameter.
     [[nodiscard]] std::vector<Setting> settings() const;
@@ -77,9 +79,18 @@ void require_apart(const Options& options, const Model& model, std::initializer_
 /// The same of a morphism, its stages and its models.
 void require_apart(const Options& options, const MorphismFile& morphism);
 
-/// What `--bind` is, for the help of a command that has it.
-inline constexpr const char* bind_help =
-    "parameters that become constants of the equations, with a value or the one that they have: I1=2,m";
+/// Options that mean the same for every command that has them.
+namespace option {
+inline constexpr OptionEntry scene{"scene", "NAME", "the scene; without it `default`, else the first"};
+inline constexpr OptionEntry set{"set", "NAME=VALUE", "a parameter's value (may be repeated)"};
+inline constexpr OptionEntry initial{"initial", "NAME=VALUE", "an initial value of the scene (may be repeated)"};
+inline constexpr OptionEntry bind{
+    "bind", "NAMES",
+    "parameters that become constants of the equations, with a value or the one that they have: I1=2,m"};
+inline constexpr OptionEntry output{"output,o", "FILE", "write there instead of to standard output"};
+inline constexpr OptionEntry unchecked{"unchecked", nullptr, "go on although the model is refuted"};
+inline constexpr OptionEntry format{"format,f", "FORMAT", "text or json", "text"};
+} // namespace option
 
 /// `text` of --OPTION as name and expression; UsageError where it is not name=value.
 [[nodiscard]] Setting read_setting(const std::string& command, const std::string& option, const std::string& text);

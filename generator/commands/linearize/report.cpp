@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/linearize/report.hpp"
 
-#include "emit/json.hpp"
+#include "text/record.hpp"
 
 #include <fmt/format.h>
 
@@ -195,69 +195,30 @@ const char* to_text(LeafKept kept)
     return "approached";
 }
 
-void names_json(JsonWriter& json, const char* key, const std::vector<std::string>& names)
+Record matrix_record(const Matrix& M)
 {
-    json.key(key).begin_array();
-    for (const std::string& name : names) json.value(name);
-    json.end_array();
+    return list_of(rows_of(M), [](const auto& row) { return list_of(row, positive_zero); });
 }
 
-void number_json(JsonWriter& json, double value)
+Record complex_record(Eigenvalue value)
 {
-    json.value(positive_zero(value));
+    return {positive_zero(value.real()), positive_zero(value.imag())};
 }
 
-void matrix_json(JsonWriter& json, const char* key, const Matrix& M)
+Record record_of(const Mode& mode, const std::vector<std::string>& states)
 {
-    json.key(key).begin_array();
-    for (const std::vector<double>& row : rows_of(M)) {
-        json.begin_array();
-        for (const double entry : row) number_json(json, entry);
-        json.end_array();
-    }
-    json.end_array();
-}
-
-void complex_json(JsonWriter& json, Eigenvalue value)
-{
-    json.begin_array();
-    number_json(json, value.real());
-    number_json(json, value.imag());
-    json.end_array();
-}
-
-void eigenvalues_json(JsonWriter& json, const char* key, const std::vector<Eigenvalue>& eigenvalues)
-{
-    json.key(key).begin_array();
-    for (const Eigenvalue& each : eigenvalues) complex_json(json, each);
-    json.end_array();
-}
-
-void modes_json(JsonWriter& json, const LinearReport& report)
-{
-    json.key("modes").begin_array();
-    for (const Mode& mode : report.modes) {
-        json.begin_object().key("eigenvalue");
-        complex_json(json, mode.eigenvalue);
-        json.key("multiplicity").value(mode.multiplicity).key("spread").value(mode.spread).key("frequency");
-        number_json(json, mode.frequency());
-        json.key("damping");
-        if (mode.eigenvalue == 0.0)
-            json.null();
-        else
-            number_json(json, mode.damping());
-        json.key("eigenvectors").begin_array();
-        for (const Eigen::VectorXcd& shape : mode.eigenvectors) {
-            json.begin_object();
-            for (std::size_t k = 0; k < report.states.size(); ++k) {
-                json.key(report.states[k]);
-                complex_json(json, shape[static_cast<Eigen::Index>(k)]);
-            }
-            json.end_object();
-        }
-        json.end_array().end_object();
-    }
-    json.end_array();
+    const auto shape_record = [&](const Eigen::VectorXcd& shape) {
+        Record entries = Record::object();
+        for (std::size_t k = 0; k < states.size(); ++k)
+            entries[states[k]] = complex_record(shape[static_cast<Eigen::Index>(k)]);
+        return entries;
+    };
+    return {{"eigenvalue", complex_record(mode.eigenvalue)},
+            {"multiplicity", mode.multiplicity},
+            {"spread", mode.spread},
+            {"frequency", positive_zero(mode.frequency())},
+            {"damping", mode.eigenvalue == 0.0 ? Record() : Record(positive_zero(mode.damping()))},
+            {"eigenvectors", list_of(mode.eigenvectors, shape_record)}};
 }
 
 } // namespace
@@ -295,34 +256,36 @@ std::string linear_text(const LinearReport& report)
 std::string linear_json(const LinearReport& report)
 {
     const Equilibrium& found = report.equilibrium;
-    JsonWriter json;
-    json.begin_object().key("model").value(report.model).key("scene").value(report.scene);
-    json.key("form").value(report.form);
-    names_json(json, "states", report.states);
-    names_json(json, "inputs", report.inputs);
-    json.key("equilibrium").begin_object();
-    for (std::size_t k = 0; k < report.states.size(); ++k) json.key(report.states[k]).value(found.at.state[k]);
-    for (std::size_t k = 0; k < report.inputs.size(); ++k) json.key(report.inputs[k]).value(found.at.inputs[k]);
-    json.end_object().key("inputs_moved").value(found.moves_inputs);
-    json.key("residual").value(found.residual).key("certified").value(found.certified);
-    json.key("radius").value(found.radius).key("leaf").value(to_text(found.leaf_kept));
-    matrix_json(json, "A", report.system.A);
-    matrix_json(json, "B", report.system.B);
+    const bool driven = !report.inputs.empty();
     std::vector<Eigenvalue> eigenvalues;
     for (const Mode& mode : report.modes) eigenvalues.insert(eigenvalues.end(), mode.multiplicity, mode.eigenvalue);
-    eigenvalues_json(json, "eigenvalues", eigenvalues);
-    modes_json(json, report);
-    const std::vector<Eigenvalue> missed = unreached(report);
-    json.key("controllable");
-    if (report.inputs.empty())
-        json.null();
-    else
-        json.value(missed.empty());
-    eigenvalues_json(json, "uncontrollable", report.inputs.empty() ? std::vector<Eigenvalue>() : missed);
-    if (!report.regulator) return json.key("gain").null().end_object().text() + "\n";
-    matrix_json(json, "gain", report.regulator->K);
-    eigenvalues_json(json, "closed_loop", report.regulator->closed_loop);
-    return json.key("riccati_residual").value(report.regulator->residual).end_object().text() + "\n";
+    const std::vector<Eigenvalue> missed = driven ? unreached(report) : std::vector<Eigenvalue>();
+    Record at = Record::object();
+    for (std::size_t k = 0; k < report.states.size(); ++k) at[report.states[k]] = found.at.state[k];
+    for (std::size_t k = 0; k < report.inputs.size(); ++k) at[report.inputs[k]] = found.at.inputs[k];
+    Record record = {{"model", report.model},
+                     {"scene", report.scene},
+                     {"form", report.form},
+                     {"states", report.states},
+                     {"inputs", report.inputs},
+                     {"equilibrium", at},
+                     {"inputs_moved", found.moves_inputs},
+                     {"residual", found.residual},
+                     {"certified", found.certified},
+                     {"radius", found.radius},
+                     {"leaf", to_text(found.leaf_kept)},
+                     {"A", matrix_record(report.system.A)},
+                     {"B", matrix_record(report.system.B)},
+                     {"eigenvalues", list_of(eigenvalues, complex_record)},
+                     {"modes", list_of(report.modes, [&](const Mode& mode) { return record_of(mode, report.states); })},
+                     {"controllable", driven ? Record(missed.empty()) : Record()},
+                     {"uncontrollable", list_of(missed, complex_record)},
+                     {"gain", nullptr}};
+    if (report.regulator)
+        record.update({{"gain", matrix_record(report.regulator->K)},
+                       {"closed_loop", list_of(report.regulator->closed_loop, complex_record)},
+                       {"riccati_residual", report.regulator->residual}});
+    return to_json(record) + "\n";
 }
 
 } // namespace lagen

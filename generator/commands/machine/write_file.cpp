@@ -127,6 +127,16 @@ void write_standard_error(std::string_view text)
     (void)write_all(STDERR_FILENO, text);
 }
 
+void warn(const std::string& text)
+{
+    write_standard_error("warning: " + text + "\n");
+}
+
+void warn(const std::vector<std::string>& texts)
+{
+    for (const std::string& text : texts) warn(text);
+}
+
 std::string content_of_file(const std::string& path)
 {
     std::FILE* file = std::fopen(path.c_str(), "rb");

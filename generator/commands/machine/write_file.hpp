@@ -5,6 +5,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lagen {
 
@@ -23,6 +24,10 @@ void write_standard_output(std::string_view content);
 
 /// Writes to standard error as well as it can: a message that nobody can read is no reason to fail.
 void write_standard_error(std::string_view text);
+
+/// "warning: TEXT" on a line of standard error.
+void warn(const std::string& text);
+void warn(const std::vector<std::string>& texts);
 
 /// The whole content of a file; MachineError where it cannot be read.
 [[nodiscard]] std::string content_of_file(const std::string& path);

@@ -2,7 +2,6 @@
 #include "commands/morphism/defect.hpp"
 
 #include "diagnostic.hpp"
-#include "emit/json.hpp"
 
 #include <fmt/core.h>
 
@@ -107,16 +106,15 @@ RunComparison compare(const Projection& projection, const Table& source, const T
     return found;
 }
 
-std::string defect_json(const RunComparison& comparison, bool lifted)
+Record defect_record(const RunComparison& comparison, bool lifted)
 {
-    JsonWriter json;
     const ColumnDefect* largest = largest_defect(comparison, lifted);
-    json.begin_object().key("max").value(largest == nullptr ? 0 : largest->max);
-    json.key("t").value(largest == nullptr ? 0 : largest->time).key("columns").begin_object();
+    Record columns = Record::object();
     for (const ColumnDefect& defect : comparison.defects)
-        if (defect.lifted == lifted) json.key(defect.name).value(defect.max);
-    json.end_object().end_object();
-    return json.text();
+        if (defect.lifted == lifted) columns[defect.name] = defect.max;
+    return {{"max", largest == nullptr ? 0 : largest->max},
+            {"t", largest == nullptr ? 0 : largest->time},
+            {"columns", columns}};
 }
 
 std::string defect_text(const RunComparison& comparison)

@@ -4,6 +4,7 @@
 
 #include "commands/morphism/projection.hpp"
 #include "commands/scene/table.hpp"
+#include "text/record.hpp"
 
 namespace lagen {
 
@@ -28,7 +29,7 @@ struct RunComparison {
 [[nodiscard]] RunComparison compare(const Projection& projection, const Table& source, const Table& target);
 
 /// {"max": .., "t": .., "columns": {NAME: ..}} of the projection, or of what is lifted.
-[[nodiscard]] std::string defect_json(const RunComparison& comparison, bool lifted);
+[[nodiscard]] Record defect_record(const RunComparison& comparison, bool lifted);
 /// A line for standard error, and a warning where a column is off by more than 1e-3 of its size; of both.
 [[nodiscard]] std::string defect_text(const RunComparison& comparison);
 

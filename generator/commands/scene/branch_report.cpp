@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/scene/branch_report.hpp"
 
-#include "lagen_run/text.hpp"
-
 #include <fmt/core.h>
 
 namespace lagen {
@@ -25,13 +23,6 @@ std::string found_text(const std::vector<double>& distances, const char* what)
 std::string options_text(std::size_t count)
 {
     return count == 1 ? "`--branch 1`" : fmt::format("`--branch 1` to `--branch {}`", count);
-}
-
-std::string list_json(const std::vector<double>& numbers)
-{
-    std::string text;
-    for (const double number : numbers) text += (text.empty() ? "" : ", ") + detail::number_text(number);
-    return "[" + text + "]";
 }
 
 } // namespace
@@ -62,12 +53,10 @@ std::string branches_text(const RunOutcome& outcome)
     return text;
 }
 
-std::string branches_json(const RunOutcome& outcome)
+void add_branches(Record& record, const RunOutcome& outcome)
 {
-    std::string text;
-    if (outcome.branches) text += fmt::format(" \"branches\": {},", list_json(*outcome.branches));
-    if (!outcome.others.empty()) text += fmt::format(" \"other_branches\": {},", list_json(outcome.others));
-    return text;
+    if (outcome.branches) record["branches"] = *outcome.branches;
+    add_unless_empty(record, "other_branches", outcome.others);
 }
 
 } // namespace lagen

@@ -18,6 +18,6 @@ namespace lagen {
 [[nodiscard]] std::string branches_text(const RunOutcome& outcome);
 
 /// The members "branches" and "other_branches", with a blank before and a comma behind each; or "".
-[[nodiscard]] std::string branches_json(const RunOutcome& outcome);
+void add_branches(Record& record, const RunOutcome& outcome);
 
 } // namespace lagen

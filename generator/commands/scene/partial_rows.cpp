@@ -27,7 +27,7 @@ ExitCode leave_rows(const Options& options, const Table& rows, const std::vector
                     const std::string& report, double t)
 {
     const std::string output = options.get("output");
-    const bool as_json = options.get("format") == "json";
+    const bool as_json = options.as_json();
     std::string place = "on standard output";
     if (!output.empty()) {
         const std::string file = partial_place(output);

@@ -3,7 +3,6 @@
 
 #include "commands/scene/branch_report.hpp"
 #include "commands/scene/methods.hpp"
-#include "emit/json.hpp"
 #include "lagen_run/text.hpp"
 #include "model/form.hpp"
 
@@ -19,28 +18,13 @@ namespace {
 
 using detail::Drift;
 
-/// A JSON number; JSON has neither nan nor inf.
-std::string number_text(double number)
-{
-    return std::isfinite(number) ? detail::number_text(number) : "null";
-}
-
-std::string string_text(std::string_view text)
-{
-    return JsonWriter().value(text).text();
-}
-
-template <class Items, class Print>
-std::string list_text(const Items& items, Print print)
-{
-    std::string text = "[";
-    for (const auto& item : items) text += (text.size() == 1 ? "" : ", ") + print(item);
-    return text + "]";
-}
-
+/// A list of numbers as JSON, with the digits of a table in CSV.
 std::string numbers_json(std::span<const double> numbers)
 {
-    return list_text(numbers, number_text);
+    std::string text;
+    for (const double each : numbers)
+        text += (text.empty() ? "" : ", ") + (std::isfinite(each) ? detail::number_text(each) : "null");
+    return "[" + text + "]";
 }
 
 /// What ended a run whose controls could not be followed, a discrete one, one on a group, or one of jumps.
@@ -91,53 +75,36 @@ bool is_exact(const RunOutcome& outcome, const Drift& drift)
     return !changes_by_itself(outcome, drift) && !(is_energy(drift) && form_named(outcome.form).steps);
 }
 
-std::string slope_json(const Drift& drift)
+/// What is followed: its start and how far it moved, or the largest value of what should be 0.
+Record record_of(const RunOutcome& outcome, const Drift& drift, bool from_start)
 {
-    if (!std::isfinite(drift.slope)) return "";
-    return fmt::format(", \"slope\": {}, \"slope_error\": {}", number_text(drift.slope), number_text(drift.error));
+    Record record = Record::object();
+    if (from_start) record["initial"] = drift.initial;
+    record[from_start ? "max_drift" : "max"] = drift.most;
+    record["t"] = drift.t;
+    if (std::isfinite(drift.slope)) record.update({{"slope", drift.slope}, {"slope_error", drift.error}});
+    if (std::isfinite(drift.moved_at) && is_exact(outcome, drift))
+        record.update({{"size", drift.size}, {"moved_at", drift.moved_at}});
+    return record;
 }
 
-std::string moved_json(const RunOutcome& outcome, const Drift& drift)
+Record record_of(const RunOutcome& outcome, const std::vector<Drift>& drifts, bool from_start)
 {
-    if (!std::isfinite(drift.moved_at) || !is_exact(outcome, drift)) return "";
-    return fmt::format(", \"size\": {}, \"moved_at\": {}", number_text(drift.size), number_text(drift.moved_at));
+    Record record = Record::object();
+    for (const Drift& drift : drifts) record[drift.name] = record_of(outcome, drift, from_start);
+    return record;
 }
 
-/// The members behind the first ones.
-std::string rest_json(const RunOutcome& outcome, const Drift& drift)
+void add_figures(Record& record, const RunOutcome& outcome)
 {
-    return fmt::format(", \"t\": {}{}{}", number_text(drift.t), slope_json(drift), moved_json(outcome, drift));
-}
-
-/// An object with a member a function; `first` prints its first members.
-template <class First>
-std::string drifts_json(const RunOutcome& outcome, const std::vector<Drift>& drifts, First first)
-{
-    std::string text = "{";
-    for (const Drift& drift : drifts)
-        text += fmt::format("{}{}: {{{}{}}}", text.size() == 1 ? "" : ", ", string_text(drift.name), first(drift),
-                            rest_json(outcome, drift));
-    return text + "}";
-}
-
-/// The members of JSON for what is followed.
-std::string figures_json(const RunOutcome& outcome)
-{
-    const auto from_start = [](const Drift& drift) {
-        return fmt::format("\"initial\": {}, \"max_drift\": {}", number_text(drift.initial), number_text(drift.most));
-    };
-    const auto from_zero = [](const Drift& drift) { return fmt::format("\"max\": {}", number_text(drift.most)); };
-    std::string text = fmt::format(" \"invariants\": {},\n \"casimirs\": {},\n \"constraints\": {}",
-                                   drifts_json(outcome, outcome.invariants, from_start),
-                                   drifts_json(outcome, outcome.casimirs, from_start),
-                                   drifts_json(outcome, outcome.constraints, from_zero));
-    for (const Drift& drift : outcome.balance)
-        text += fmt::format(",\n \"energy_balance\": {{{}, \"work\": {}{}}}", from_start(drift),
-                            number_text(outcome.work), rest_json(outcome, drift));
-    if (outcome.manifold)
-        text += fmt::format(",\n \"manifold_distance\": {{\"max\": {}, \"t\": {}}}", number_text(*outcome.manifold),
-                            number_text(outcome.manifold_t));
-    return text;
+    record["invariants"] = record_of(outcome, outcome.invariants, true);
+    record["casimirs"] = record_of(outcome, outcome.casimirs, true);
+    record["constraints"] = record_of(outcome, outcome.constraints, false);
+    for (const Drift& drift : outcome.balance) {
+        Record& balance = record["energy_balance"] = record_of(outcome, drift, true);
+        balance["work"] = outcome.work;
+    }
+    if (outcome.manifold) record["manifold_distance"] = {{"max", *outcome.manifold}, {"t", outcome.manifold_t}};
 }
 
 std::string slope_text(const Drift& drift)
@@ -203,25 +170,20 @@ std::string action_text(const RunOutcome& outcome)
         sizes.largest);
 }
 
-std::string action_json(const RunOutcome& outcome)
+Record record_of(const ActionReport& action)
 {
-    if (!outcome.action) return "";
-    const ActionReport& action = *outcome.action;
     const ActionSizes sizes = sizes_of(action);
-    return fmt::format(",\n \"action\": {{\"value\": {}, \"first\": {:.17g}, \"parts\": {:.17g}, \"base\": {}, "
-                       "\"fibre\": {}, \"second\": {}}}",
-                       number_text(action.action), sizes.first, sizes.part, numbers_json(action.base),
-                       numbers_json(action.fibre), numbers_json(action.second));
+    return {{"value", action.action}, {"first", sizes.first},  {"parts", sizes.part},
+            {"base", action.base},    {"fibre", action.fibre}, {"second", action.second}};
 }
 
 constexpr std::size_t most_lanes = 12; ///< of a state in a line
 
-std::string lanes_json(const RunOutcome& outcome, const std::vector<double>& values)
+Record lanes_record(const RunOutcome& outcome, const std::vector<double>& values)
 {
-    std::string text;
-    for (std::size_t k = 0; k < values.size(); ++k)
-        text += fmt::format("{}{}: {}", k == 0 ? "" : ", ", string_text(outcome.lanes.at(k)), number_text(values[k]));
-    return "{" + text + "}";
+    Record record = Record::object();
+    for (std::size_t k = 0; k < values.size(); ++k) record[outcome.lanes.at(k)] = values[k];
+    return record;
 }
 
 /// "x = 0, v = -1", but for lanes that are as `before`.
@@ -277,13 +239,41 @@ std::string small_lanes_warning(const RunOutcome& outcome)
     return lanes.empty() ? "" : below_absolute_warning(names, outcome.absolute);
 }
 
-std::string accuracy_members(const RunOutcome& outcome)
+Record record_of(const RunOutcome& outcome, const detail::FoundCrossing& event)
 {
-    return fmt::format(" \"accuracy\": {}, \"below_absolute\": {},",
-                       outcome.accuracy ? json_of(*outcome.accuracy) : "null",
-                       list_text(outcome.below, [&](const detail::SmallLane& each) {
-                           return string_text(outcome.lanes.at(each.lane));
-                       }));
+    Record record = {{"name", event.name}, {"t", event.t}, {"state", lanes_record(outcome, event.state)}};
+    if (!event.after.empty()) record["after"] = lanes_record(outcome, event.after);
+    return record;
+}
+
+/// Everything but the rows.
+Record record_of(const RunOutcome& outcome)
+{
+    Record record = {{"model", outcome.model},
+                     {"scene", outcome.scene},
+                     {"form", outcome.form},
+                     {"method", outcome.method},
+                     {"status", outcome.status},
+                     {"t", outcome.t},
+                     {"state", lanes_record(outcome, outcome.state)}};
+    if (!succeeded(outcome.status)) {
+        record["failed_at"] = outcome.failed_at;
+        if (!outcome.largest_step.empty()) record["largest_step"] = std::stod(outcome.largest_step);
+    }
+    add_branches(record, outcome);
+    record.update({{"steps", outcome.steps}, {"rejected", outcome.rejected}, {"rhs_calls", outcome.rhs_calls}});
+    if (outcome.newton > 0)
+        record.update({{"newton_iterations", outcome.newton}, {"decompositions", outcome.decompositions}});
+    record["seconds"] = outcome.seconds;
+    record["accuracy"] = outcome.accuracy ? record_of(*outcome.accuracy) : Record();
+    record["below_absolute"] =
+        list_of(outcome.below, [&](const detail::SmallLane& each) { return outcome.lanes.at(each.lane); });
+    add_figures(record, outcome);
+    if (outcome.action) record["action"] = record_of(*outcome.action);
+    record["events"] =
+        list_of(outcome.events, [&](const detail::FoundCrossing& event) { return record_of(outcome, event); });
+    record["columns"] = outcome.table.columns;
+    return record;
 }
 
 /// Of a run that did not leave its start.
@@ -326,33 +316,10 @@ bool is_interrupted(const RunOutcome& outcome)
 
 std::string report_json(const RunOutcome& outcome)
 {
-    const std::string events = list_text(outcome.events, [&](const detail::FoundCrossing& event) {
-        return fmt::format("{{\"name\": {}, \"t\": {}, \"state\": {}{}}}", string_text(event.name),
-                           number_text(event.t), lanes_json(outcome, event.state),
-                           event.after.empty() ? "" : ", \"after\": " + lanes_json(outcome, event.after));
-    });
-    const std::string implicit = outcome.newton == 0
-                                     ? ""
-                                     : fmt::format(" \"newton_iterations\": {}, \"decompositions\": {},",
-                                                   outcome.newton, outcome.decompositions);
-    std::vector<std::string> rows;
-    for (std::size_t k = 0; k < outcome.table.count(); ++k) rows.push_back(numbers_json(outcome.table.row(k)));
-    return fmt::format(
-        "{{\"model\": {}, \"scene\": {}, \"form\": {}, \"method\": {}, \"status\": {}, \"t\": {}, "
-        "\"state\": {},{}{}\n \"steps\": {}, "
-        "\"rejected\": {}, \"rhs_calls\": {},{} \"seconds\": {},\n{}\n \"columns\": {},\n \"rows\": {},\n \"events\": "
-        "{},\n{}}}\n",
-        string_text(outcome.model), string_text(outcome.scene), string_text(outcome.form), string_text(outcome.method),
-        string_text(outcome.status), number_text(outcome.t), lanes_json(outcome, outcome.state),
-        succeeded(outcome.status)
-            ? ""
-            : fmt::format(" \"failed_at\": {},", number_text(outcome.failed_at)) +
-                  (outcome.largest_step.empty() ? "" : fmt::format(" \"largest_step\": {},", outcome.largest_step)),
-        branches_json(outcome), outcome.steps, outcome.rejected, outcome.rhs_calls, implicit,
-        number_text(outcome.seconds), accuracy_members(outcome),
-        list_text(outcome.table.columns, [](const std::string& column) { return string_text(column); }),
-        list_text(rows, [](const std::string& row) { return row; }), events,
-        figures_json(outcome) + action_json(outcome));
+    std::string rows;
+    for (std::size_t k = 0; k < outcome.table.count(); ++k)
+        rows += (k == 0 ? "" : ", ") + numbers_json(outcome.table.row(k));
+    return with_member(to_json(record_of(outcome)), "rows", "[" + rows + "]");
 }
 
 std::string report_text(const RunOutcome& outcome)

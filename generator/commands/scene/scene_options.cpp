@@ -80,9 +80,9 @@ void set_plot(const Options& options, const Model& model, Scene& scene)
 void warn_of_unused(const Options& options, const MethodEntry& method)
 {
     if (method.adaptive && options.has("step"))
-        write_standard_error(fmt::format("warning: --step is not used: {} chooses its steps itself\n", method.name));
+        warn(fmt::format("--step is not used: {} chooses its steps itself", method.name));
     if (!method.adaptive && options.has("tolerance"))
-        write_standard_error(fmt::format("warning: --tolerance is not used: the steps of {} are fixed\n", method.name));
+        warn(fmt::format("--tolerance is not used: the steps of {} are fixed", method.name));
 }
 
 /// A time scale is for splittings. Where --method takes another one, that of the scene is left out.
@@ -91,8 +91,8 @@ void require_splitting(const Options& options, const Scene& scene, const MethodE
     if (scene.time_scale == nullptr || is_symmetric_splitting(method)) return;
     const bool given = options.has("time-scale");
     if (!given && options.has("method")) {
-        write_standard_error(fmt::format(
-            "warning: time_scale of scene '{}' is not used: {} is no symmetric splitting\n", scene.name, method.name));
+        warn(
+            fmt::format("time_scale of scene '{}' is not used: {} is no symmetric splitting", scene.name, method.name));
         return;
     }
     const std::string what = given ? "--time-scale" : fmt::format("'time_scale' of scene '{}'", scene.name);

@@ -20,7 +20,7 @@ SceneRun::SceneRun(const Options& options, CheckedModel& checked, Scene scene, c
     : options_(options), checked_(checked), scene_(with_walls(checked.model, std::move(scene))), method_(method),
       preparation_(options, checked, scene_, method, run_driver)
 {
-    for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
+    warn(checked.warnings);
     values_ = evaluate_scene(checked.model, scene_);
     parameters_ = finite_numbers(values_.parameters, scene_);
     input_.events = &scene_.events;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/scene/state_accuracy.hpp"
 
-#include "lagen_run/text.hpp"
-
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -67,11 +65,9 @@ std::string accuracy_line(const std::optional<StateAccuracy>& accuracy, const st
                     : fmt::format("  error of the state: {}\n", second_run);
 }
 
-std::string json_of(const StateAccuracy& accuracy)
+Record record_of(const StateAccuracy& accuracy)
 {
-    return fmt::format("{{\"estimate\": {}, \"holds_until\": {}}}",
-                       std::isfinite(accuracy.estimate) ? fmt::format("{}", accuracy.estimate) : "null",
-                       accuracy.holds_until ? detail::number_text(*accuracy.holds_until) : "null");
+    return {{"estimate", accuracy.estimate}, {"holds_until", or_null(accuracy.holds_until)}};
 }
 
 } // namespace lagen

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "commands/scene/table.hpp"
+#include "text/record.hpp"
 
 #include <optional>
 #include <string>
@@ -26,6 +27,6 @@ struct StateAccuracy {
 [[nodiscard]] std::string accuracy_line(const std::optional<StateAccuracy>& accuracy, const std::string& second_run);
 
 /// An object of JSON.
-[[nodiscard]] std::string json_of(const StateAccuracy& accuracy);
+[[nodiscard]] Record record_of(const StateAccuracy& accuracy);
 
 } // namespace lagen

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// What a command answers, as a tree of named values, and its JSON.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace lagen {
+
+/// Members stand in the order in which they were added.
+using Record = nlohmann::ordered_json;
+
+/// JSON (RFC 8259) in one line. Numbers are the shortest decimals that are read back as they were, as fmt prints them;
+/// what is no finite number is null.
+[[nodiscard]] std::string to_json(const Record& record);
+
+/// The text of an object with one member more, whose value is JSON already: long tables are not kept as trees.
+[[nodiscard]] std::string with_member(std::string object, std::string_view name, std::string_view json);
+
+template <class Value>
+[[nodiscard]] Record or_null(const std::optional<Value>& value)
+{
+    return value ? Record(*value) : Record();
+}
+
+/// Adds the member, unless the text or the list is empty.
+template <class Value>
+void add_unless_empty(Record& object, const char* name, const Value& value)
+{
+    if (!value.empty()) object[name] = value;
+}
+
+/// A list with `convert` of each item.
+template <class Items, class Convert>
+[[nodiscard]] Record list_of(const Items& items, Convert convert)
+{
+    Record list = Record::array();
+    for (const auto& item : items) list.push_back(convert(item));
+    return list;
+}
+
+/// An object with a member a pair of name and value.
+template <class Pairs, class Convert>
+[[nodiscard]] Record object_of(const Pairs& pairs, Convert convert)
+{
+    Record object = Record::object();
+    for (const auto& [name, value] : pairs) object.push_back({name, convert(value)});
+    return object;
+}
+
+} // namespace lagen
