@@ -155,13 +155,13 @@ Verdict verdict_of(const VerifiedMorphism& verified)
 
 void warn_of_morphism(const VerifiedMorphism& verified, const std::string& file, bool unchecked)
 {
-    const auto warn = [&](const char* noun, const std::string& name, const StructureReport& structure) {
+    const auto warn_of = [&](const char* noun, const std::string& name, const StructureReport& structure) {
         warn(require_unrefuted(noun, name, file, structure, unchecked));
     };
-    for (const VerifiedMorphism& stage : verified.stages) warn("morphism", stage.name, stage.map.structure);
+    for (const VerifiedMorphism& stage : verified.stages) warn_of("morphism", stage.name, stage.map.structure);
     for (std::size_t k = 1; k < verified.stages.size(); ++k)
-        warn("model", verified.stages[k].source_name, verified.stages[k].source.structure);
-    warn("morphism", verified.name, verified.map.structure);
+        warn_of("model", verified.stages[k].source_name, verified.stages[k].source.structure);
+    warn_of("morphism", verified.name, verified.map.structure);
 }
 
 std::string morphism_text(const VerifiedMorphism& verified)
