@@ -318,7 +318,7 @@ TEST_CASE("rows with values that a proof does not hold for are left out, and the
     using Texts = std::vector<std::string>;
     // What is proved for c = 3/5 alone: other values do not run as if it held for them, and no start rests on it.
     const std::string quartic = fresh_folder() + "/quartic.toml";
-    const std::string momenta = "\n[scene.momenta]\ninitial = { p_w1 = 2, p_w2 = 1, p_w3 = 0 }\nduration = 1\n";
+    const std::string momenta = "\n[scene.momenta]\ninitial = { p_w1 = 2, p_w2 = 1, p_w3 = 0.5 }\nduration = 1\n";
     write_text(quartic, read_text(models_folder() + "/quartic_body.toml") + momenta);
     const std::vector<std::string> range{"--form", "hamilton", "--set", "c=0.5:0.7:3", "-o", file};
     std::vector<std::string> arguments{quartic, "--scene", "momenta"};

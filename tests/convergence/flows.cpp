@@ -210,7 +210,7 @@ TEST_CASE("A million steps keep the Casimirs of a heavy top to a walk of roundin
         const Eigen::Matrix<long double, 3, 1> g = s.head<3>().cast<long double>(), p = s.tail<3>().cast<long double>();
         return std::pair(g.dot(g), g.dot(p));
     };
-    const auto [length, area] = casimirs(begin);
+    const auto start = casimirs(begin);
     long double walk = 0;
     double early = 0, late = 0;
     std::size_t step = 0;
@@ -219,7 +219,7 @@ TEST_CASE("A million steps keep the Casimirs of a heavy top to a walk of roundin
         (step < most / 10 ? early : late) = std::max(step < most / 10 ? early : late, error);
         if (++step % 1000 != 0) return;
         const auto [now, area_now] = casimirs(s);
-        walk = std::max({walk, std::abs(now - length), std::abs(area_now - area)});
+        walk = std::max({walk, std::abs(now - start.first), std::abs(area_now - start.second)});
     };
     const auto run = lagen::integrate(top, begin, {0.0, 0.1 * most}, lagen::LeapfrogKdk{.step = 0.1}, {}, watch);
     CHECK(run.status() == lagen::Status::ok);

@@ -108,7 +108,7 @@ void check_trees()
 struct Relativistic {
     using Scalar = Quad;
     using State = Eigen::Matrix<Quad, 2, 1>;
-    static constexpr int dimension = 2, base_dimension = 1, fibre_dimension = 1;
+    static constexpr int dimension = 2, base_dimension = 1;
     lagen::Status rhs(Scalar, const State& s, State& ds) const noexcept
     {
         const Scalar q = s[0], p = s[1];
@@ -122,7 +122,7 @@ struct Relativistic {
 struct Clocked {
     using Scalar = Quad;
     using State = Eigen::Matrix<Quad, 2, 1>;
-    static constexpr int dimension = 2, base_dimension = 1, fibre_dimension = 1;
+    static constexpr int dimension = 2, base_dimension = 1;
     lagen::Status rhs(Scalar t, const State& s, State& ds) const noexcept
     {
         const Scalar q = s[0], p = s[1];

@@ -95,7 +95,7 @@ void check_changes(int s, const Quadrature& rule, const std::vector<double>& exp
 struct Spring {
     using Scalar = double;
     using State = Eigen::Vector2d;
-    static constexpr int dimension = 2, base_dimension = 1;
+    static constexpr int dimension = 2;
 
     lagen::Status rhs(double, const State& s, State& ds) const noexcept
     {

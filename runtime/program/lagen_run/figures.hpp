@@ -91,8 +91,8 @@ class Figures {
         };
         if (follows_energy_) report.invariants.push_back(next(has_energy(model) ? "energy" : "hamiltonian"));
         if (balances_) {
-            if (const Drift balance = next("energy less work"); sums_)
-                report.balance.push_back(balance), report.work = work_;
+            if (const Drift followed = next("energy less work"); sums_)
+                report.balance.push_back(followed), report.work = work_;
         }
         for (const char* name : invariants_of(model)) report.invariants.push_back(next(name));
         for (const char* name : constraints_of(model)) report.constraints.push_back(next(name));

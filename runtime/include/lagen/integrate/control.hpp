@@ -293,7 +293,7 @@ typename M::Scalar first_step(const M& model, const StepControl& control, int or
               : ratio > Real(0)       ? rough_power<Real>(ratio, Real(1) / Real(order))
                                       : ratio;
     Real chosen = Real(100) * h < h1 ? Real(100) * h : h1;
-    const Real rounding = Real(32) * std::numeric_limits<Real>::epsilon() * abs(t);
+    const Real rounding(plain_number(Real(32)) * std::numeric_limits<Real>::epsilon() * abs(plain_number(t)));
     if (chosen < rounding) chosen = rounding;
     if (!(chosen < cap)) chosen = cap;
     return sign * (chosen > Real(0) ? chosen : h);
