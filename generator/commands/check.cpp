@@ -27,11 +27,8 @@ const CommandSyntax check_syntax{
     "Decides the structure equations, tangency, Casimirs and invariants, and what a morphism file claims: each "
     "proved, refuted at a point, or undecided.",
     {{"invariant", "EXPR", "decide also whether this function is conserved (may be repeated)"},
-     {"verify", nullptr, "evaluate every residual again, at other points and to 60 digits"},
      {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
      {"format,f", "FORMAT", "text or json", "text"}}};
-
-constexpr std::size_t reevaluation_points = 5;
 
 std::vector<NamedTree> extra_invariants(const Options& options, const Model& model)
 {
@@ -59,14 +56,14 @@ struct Output {
     JsonWriter* json;
 };
 
-ExitCode check_model(const Model& model, const Options& options, std::size_t points, const Output& output)
+ExitCode check_model(const Model& model, const Options& options, const Output& output)
 {
     require_arrows(model);
     const std::vector<NamedTree> claims = extra_invariants(options, model);
     require_values(claims);
     refuse_inputs_in(model, claims);
     const System system = elaborate(model);
-    Report verified = verify(system, claims, points);
+    Report verified = verify(system, claims);
     advise(system, verified);
     if (verified.control.maximum.kind == ControlMaximum::Kind::stationary)
         write_standard_error(fmt::format("warning: {}\n", stationary_controls));
@@ -77,11 +74,11 @@ ExitCode check_model(const Model& model, const Options& options, std::size_t poi
     return code_of(verified.structure.verdict);
 }
 
-ExitCode check_morphism(const MorphismFile& file, const Options& options, std::size_t points, const Output& output)
+ExitCode check_morphism(const MorphismFile& file, const Options& options, const Output& output)
 {
     if (options.has("invariant"))
         throw UsageError("lagen check: --invariant is of a model, and " + quote(file.file->name) + " is a morphism");
-    const VerifiedMorphism verified = verify_morphism(file, points);
+    const VerifiedMorphism verified = verify_morphism(file);
     if (output.json != nullptr)
         morphism_json(*output.json, verified);
     else
@@ -95,11 +92,10 @@ ExitCode check_one(const std::string& path, const Options& options, std::string&
     try {
         const std::string place = model_path(path);
         const auto file = std::make_shared<const SourceFile>(SourceFile{place, read_file(place)});
-        const std::size_t points = options.has("verify") ? reevaluation_points : 0;
         const Output output{text, json};
         if (is_morphism(file))
-            return check_morphism(read_morphism(file, options.settings(), choosers()), options, points, output);
-        return check_model(read_model_text(place, file->text, options.settings(), choosers()), options, points, output);
+            return check_morphism(read_morphism(file, options.settings(), choosers()), options, output);
+        return check_model(read_model_text(place, file->text, options.settings(), choosers()), options, output);
     } catch (const Error& error) {
         const std::string said = error.what();
         write_standard_error(said + (said.ends_with('\n') ? "" : "\n"));

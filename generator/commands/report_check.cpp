@@ -135,25 +135,6 @@ std::string failures_text(const StructureReport& structure, ProofStatus status)
     return text;
 }
 
-/// "5 points, 60 digits: every proved residual is at most 3e-71"
-std::string confirmed_text(const StructureReport& structure, const Reevaluation& reevaluation)
-{
-    std::size_t count = 0;
-    for (const Check& check : structure.checks)
-        if (check.decision.status == ProofStatus::proved && check.reevaluation) ++count;
-    if (count == 0) return "nothing: no proved equation has terms";
-    if (reevaluation.points == 0) return "a proved residual has a finite value at none of the points that were tried";
-    const std::string where = fmt::format("{} points, {} digits", reevaluation.points, reevaluation_digits);
-    if (reevaluation.bound == 0) return fmt::format("{}: all proved residuals are exactly 0", where);
-    return fmt::format("{}: every proved residual is at most {:.0e}", where, reevaluation.bound);
-}
-
-/// "3e-71"
-std::string largest_text(const Reevaluation& reevaluation)
-{
-    return reevaluation.bound == 0 ? "0" : fmt::format("{:.0e}", reevaluation.bound);
-}
-
 /// Which matrix it is, where it is not d2L/dy2.
 const char* matrix_text(Regularity::Matrix matrix)
 {
@@ -247,14 +228,6 @@ void values_json(JsonWriter& json, const Values& values)
     json.end_object();
 }
 
-void verified_json(JsonWriter& json, const std::optional<Reevaluation>& reevaluation)
-{
-    if (!reevaluation) return;
-    json.key("verified").begin_object().key("points").value(reevaluation->points);
-    json.key("digits").value(static_cast<std::size_t>(reevaluation_digits));
-    json.key("largest").value(largest_text(*reevaluation)).end_object();
-}
-
 void check_json(JsonWriter& json, const Check& check)
 {
     json.begin_object().key("name").value(check.name).key("indices").begin_array();
@@ -272,7 +245,6 @@ void check_json(JsonWriter& json, const Check& check)
     }
     if (!check.decision.evidence.empty()) json.key("evidence").value(check.decision.evidence);
     if (!check.hint.empty()) json.key("hint").value(check.hint);
-    verified_json(json, check.reevaluation);
     json.end_object();
 }
 
@@ -342,8 +314,6 @@ std::string report_text(const std::string& model, const Report& verified)
     for (const Regularity* each : {&verified.mechanics.discrete, &verified.mechanics.regularity})
         text += regularity_text(*each);
     text += nonholonomic_text(verified.mechanics);
-    if (const auto& again = structure.reevaluation)
-        text += fmt::format("  {:<16}{}\n", "re-evaluated", confirmed_text(structure, *again));
     if (!structure.note.empty()) text += fmt::format("  note: {}\n", structure.note);
     return text + failures_text(structure);
 }
@@ -392,7 +362,6 @@ void report_json(JsonWriter& json, const std::string& model, const Report& verif
     if (is_discrete && regularity.kind != Regularity::Kind::absent)
         regularity_json(json.key("regularity_of_lagrangian"), regularity);
     nonholonomic_json(json, verified.mechanics);
-    verified_json(json, structure.reevaluation);
     if (!structure.note.empty()) json.key("note").value(structure.note);
     json.end_object();
 }
