@@ -3,6 +3,9 @@
 #pragma once
 
 #include "notation/equation_set.hpp"
+#include "notation/equation_system.hpp"
+
+#include <optional>
 
 namespace lagen {
 
@@ -15,7 +18,7 @@ enum class LongLines {
 /// UTF-8, aligned, at most 120 columns.
 [[nodiscard]] std::string print_text(const EquationSet& equations, LongLines long_lines = LongLines::broken);
 [[nodiscard]] std::string print_latex(const EquationSet& equations); ///< a compilable fragment: align* blocks (amsmath)
-[[nodiscard]] std::string print_json(const EquationSet& equations);
+[[nodiscard]] std::string print_json(const EquationSet& equations, const std::optional<EquationSystem>& system = {});
 
 /// One tree as UTF-8 mathematics / LaTeX.
 [[nodiscard]] std::string latex_of(const Tree& tree, const EquationSet& symbols);

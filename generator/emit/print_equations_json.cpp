@@ -6,16 +6,19 @@
 ///     "other", "arguments": [..],
 ///                "mass": [{"symbol", "value"}]},
 ///       "relation": "at_least" | "at_most", "right": "...", "groups": [{"label", "value"}]}]}],
-///   "given": [..], "where": [{"symbol", "value"}], "statements": [{"formula", "status", "component": [..], "residual",
-///   "witness": {}, "value", "evidence"}]}
+///   "given": [..], "where": [{"symbol", "value"}], "system": {}, "statements": [{"formula", "status", "component":
+///   [..], "residual", "witness": {}, "value", "evidence"}]}
 /// `given` has blocks as `blocks`: what the model gives, L, brackets, constraints, claimed invariants; it is left out
 /// where there are none. `where` says what symbols of the equations stand for, in coordinates, parameters and others of
-/// the list; it is left out where there are none. `symbol` is left out of kind "zero", `mass` where the left side has
-/// no mass matrix; `other` is of kind "bracket", {symbol, other}; `arguments` are those of kind "component",
-/// symbol(arguments); `relation` is left out of equations, `statements` where there are none. Of kinds "differential",
-/// d symbol, and "form", d e^symbol, the right side is the sum of value e^{basis[0]} ^ e^{basis[1]} .. of the groups,
-/// each {"label", "value", "basis"}; of "section", e_symbol, and "commutator", [e_symbol, e_other], that of value
-/// e_{basis[0]}.
+/// the list; it is left out where there are none. `system`, {"parameters": [{"symbol", "value"}], "base": [..],
+/// "fibre": [..], "momenta": [..], "ambient": [..], "controls": [..], "states": [..], "definitions": [{"symbol",
+/// "value"}], "lagrangian", "hamiltonian", "constraints": [..], "rho": [{"indices", "value"}], "C": [{"indices",
+/// "value"}]}, is what EquationSystem has; what the model lacks is left out. `symbol` is left out of kind "zero",
+/// `mass` where the left side has no mass matrix; `other` is of kind "bracket", {symbol, other}; `arguments` are those
+/// of kind "component", symbol(arguments); `relation` is left out of equations, `statements` where there are none. Of
+/// kinds "differential", d symbol, and "form", d e^symbol, the right side is the sum of value e^{basis[0]} ^
+/// e^{basis[1]} .. of the groups, each {"label", "value", "basis"}; of "section", e_symbol, and "commutator",
+/// [e_symbol, e_other], that of value e_{basis[0]}.
 #include "emit/json.hpp"
 #include "emit/print_equations.hpp"
 #include "emit/print_equations_terms.hpp"
@@ -112,21 +115,49 @@ void write_blocks(JsonWriter& json, const std::vector<EquationBlock>& blocks)
     json.end_array();
 }
 
+template <class Entry>
+void write_values(JsonWriter& json, const std::vector<Entry>& entries, std::string Entry::*symbol)
+{
+    json.begin_array();
+    for (const Entry& entry : entries)
+        json.begin_object().key("symbol").value(entry.*symbol).key("value").value(to_text(entry.value)).end_object();
+    json.end_array();
+}
+
+void write_structure(JsonWriter& json, const std::vector<StructureEntry>& entries)
+{
+    json.begin_array();
+    for (const StructureEntry& entry : entries) {
+        write_names(json.begin_object().key("indices"), entry.indices);
+        json.key("value").value(to_text(entry.value)).end_object();
+    }
+    json.end_array();
+}
+
+void write_system(JsonWriter& json, const EquationSystem& system)
+{
+    write_values(json.begin_object().key("parameters"), system.parameters, &NamedTree::name);
+    for (const auto& [part, symbols] : system.parts) write_names(json.key(part), symbols);
+    write_values(json.key("definitions"), system.definitions, &NamedTree::name);
+    for (const NamedTree& function : system.functions) json.key(function.name).value(to_text(function.value));
+    json.key("constraints").begin_array();
+    for (const Tree& constraint : system.constraints) json.value(to_text(constraint));
+    write_structure(json.end_array().key("rho"), system.rho);
+    write_structure(json.key("C"), system.C);
+    json.end_object();
+}
+
 } // namespace
 
-std::string print_json(const EquationSet& equations)
+std::string print_json(const EquationSet& equations, const std::optional<EquationSystem>& system)
 {
     JsonWriter json;
     json.begin_object().key("model").value(equations.model).key("title").value(equations.title);
     json.key("form").value(equations.form);
     write_blocks(json.key("blocks"), equations.blocks);
     if (!equations.given.empty()) write_blocks(json.key("given"), equations.given);
-    if (!equations.where.empty()) {
-        json.key("where").begin_array();
-        for (const WhereEntry& entry : equations.where)
-            json.begin_object().key("symbol").value(entry.symbol).key("value").value(to_text(entry.value)).end_object();
-        json.end_array();
-    }
+    if (!equations.where.empty()) write_values(json.key("where"), equations.where, &WhereEntry::symbol);
+    if (system) write_system(json.key("system"), *system);
     if (!equations.statements.empty()) {
         json.key("statements").begin_array();
         for (const DecidedStatement& statement : equations.statements) write_statement(json, statement);

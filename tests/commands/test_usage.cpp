@@ -70,7 +70,7 @@ TEST_CASE("a slip in a command, an option or a choice is answered with the neare
     refused({"run", "pendulum.toml", "--set", "g"}, 4, "lagen run: --set needs name=value, found 'g'\n");
     refused({"run", "pendulum.toml", "--at", ""}, 4, "lagen run: --at needs at least one time, e.g. --at 0,1/2,1\n");
     refused({"derive", "pendulum.toml", "--format", "latx"}, 4,
-            "lagen derive: --format is 'latx', it must be one of text, latex, json, sympy; did you mean 'latex'?\n");
+            "lagen derive: --format is 'latx', it must be one of text, latex, json; did you mean 'latex'?\n");
     refused({"generate", "pendulum.toml", "--form", "lagrnge"}, 4,
             "lagen generate: --form is 'lagrnge', it must be one of lagrange, hamilton, pontryagin, discrete; did "
             "you mean 'lagrange'?\n");
