@@ -135,7 +135,7 @@ void advise(const System& system, Report& report, const ProofBudget& budget)
     const ResidualList list = structure_equations(partial, system.algebroid, system.functions);
     // The checks of the report begin with these equations, in their order.
     if (report.structure.checks.size() < list.residuals.size()) throw InternalError("a report of another system");
-    Judge judge(graph, proof_setting(graph, system), 0, budget);
+    Judge judge(graph, proof_setting(graph, system), budget);
     for (std::size_t k = 0; k < list.residuals.size(); ++k)
         judge.remember(list.residuals[k].value, report.structure.checks[k].decision);
     RepairSearch search(graph, partial, judge, system.written.algebroid, system.algebroid, system.functions,

@@ -27,11 +27,8 @@ const CommandSyntax check_syntax{
     "Decides the structure equations, tangency, Casimirs and invariants, and what a morphism file claims: each "
     "proved, refuted at a point, or undecided.",
     {{"invariant", "EXPR", "decide also whether this function is conserved (may be repeated)"},
-     {"verify", nullptr, "evaluate every residual again, at other points and to 60 digits"},
      option::set,
      option::format}};
-
-constexpr std::size_t reevaluation_points = 5;
 
 std::vector<NamedTree> extra_invariants(const Options& options, const Model& model)
 {
@@ -60,24 +57,24 @@ struct Answer {
     Record record;
 };
 
-Answer check_model(const Model& model, const Options& options, std::size_t points)
+Answer check_model(const Model& model, const Options& options)
 {
     require_arrows(model);
     const std::vector<NamedTree> claims = extra_invariants(options, model);
     require_values(claims);
     refuse_inputs_in(model, claims);
     const System system = elaborate(model);
-    Report verified = verify(system, claims, points);
+    Report verified = verify(system, claims);
     advise(system, verified);
     if (verified.control.maximum.kind == ControlMaximum::Kind::stationary) warn(stationary_controls);
     return {code_of(verified.structure.verdict), report_text(model.name, verified), record_of(model.name, verified)};
 }
 
-Answer check_morphism(const MorphismFile& file, const Options& options, std::size_t points)
+Answer check_morphism(const MorphismFile& file, const Options& options)
 {
     if (options.has("invariant"))
         throw UsageError("lagen check: --invariant is of a model, and " + quote(file.file->name) + " is a morphism");
-    const VerifiedMorphism verified = verify_morphism(file, points);
+    const VerifiedMorphism verified = verify_morphism(file);
     return {code_of(verdict_of(verified)), morphism_text(verified), record_of(verified)};
 }
 
@@ -87,10 +84,8 @@ Answer check_one(const std::string& path, const Options& options)
     try {
         const std::string place = model_path(path);
         const auto file = std::make_shared<const SourceFile>(SourceFile{place, read_file(place)});
-        const std::size_t points = options.has("verify") ? reevaluation_points : 0;
-        if (is_morphism(file))
-            return check_morphism(read_morphism(file, options.settings(), choosers()), options, points);
-        return check_model(read_model_text(place, file->text, options.settings(), choosers()), options, points);
+        if (is_morphism(file)) return check_morphism(read_morphism(file, options.settings(), choosers()), options);
+        return check_model(read_model_text(place, file->text, options.settings(), choosers()), options);
     } catch (const Error& error) {
         const std::string said = error.what();
         write_standard_error(said + (said.ends_with('\n') ? "" : "\n"));

@@ -6,8 +6,7 @@
 #include "commands/machine/places.hpp"
 #include "commands/machine/write_file.hpp"
 #include "emit/print_equations.hpp"
-#include "emit/print_sympy.hpp"
-#include "equations/equation_module.hpp"
+#include "equations/equation_system.hpp"
 #include "expression/parse.hpp"
 #include "model/scene_form.hpp"
 #include "pipeline.hpp"
@@ -42,10 +41,7 @@ const CommandSyntax derive_syntax{"derive",
                                     "coordinates and momenta (twice)"},
                                    option::output,
                                    option::set,
-                                   {"format,f", "FORMAT",
-                                    "text, latex, json, or sympy: a Python module with the equations as SymPy "
-                                    "expressions and their right-hand side (docs/python.md)",
-                                    "text"}}};
+                                   {"format,f", "FORMAT", "text, latex or json", "text"}}};
 
 std::string momenta_of(const Model& model)
 {
@@ -69,7 +65,7 @@ std::string marked(const std::string& text, const std::string& format, const std
     if (warnings.empty()) return text;
     std::string mark;
     for (const std::string& warning : warnings)
-        mark += fmt::format("{}WARNING: {}\n", format == "latex" ? "% " : format == "sympy" ? "# " : "", warning);
+        mark += fmt::format("{}WARNING: {}\n", format == "latex" ? "% " : "", warning);
     return mark + text;
 }
 
@@ -107,28 +103,22 @@ void announce(const std::string& text, const std::string& file)
                                      static_cast<double>(text.size()) / 1e6));
 }
 
-/// Forms of sections and functions of arrows have no module.
-void require_module_form(const std::string& form)
-{
-    const std::vector<std::string>& forms = module_forms();
-    if (std::ranges::find(forms, form) == forms.end())
-        throw UsageError(
-            fmt::format("lagen derive: --format sympy goes with --form {}, not {}", fmt::join(forms, ", "), form));
-}
-
 } // namespace
 
 ExitCode run_derive(Arguments arguments)
 {
     const Options options(derive_syntax, arguments);
     if (options.help()) return ExitCode::done;
-    const std::string format = options.choice("format", {"text", "latex", "json", "sympy"});
+    if (options.get("format") == "sympy")
+        throw UsageError(fmt::format("lagen derive: --format is 'sympy', it must be one of text, latex, json\nhint: "
+                                     "lagen.equations(\"{}\") in Python gives them in SymPy (docs/python.md)",
+                                     options.positional()[0]));
+    const std::string format = options.choice("format", {"text", "latex", "json"});
     if (options.has("form")) (void)options.choice("form", derivation_names());
     // A refuted model has equations too, and reading them may show why; they come with the warning.
     const CheckedModel checked = load(model_path(options.positional()[0]), options.settings(), true);
     require_apart(options, checked.model);
     const std::string form = options.has("form") ? options.get("form") : form_to_derive(checked.model);
-    if (format == "sympy") require_module_form(form);
     const std::vector<Tree> brackets = bracket_functions(options, checked.model, form);
     const std::vector<std::string> warnings = warnings_of(checked, form);
     warn(warnings);
@@ -136,20 +126,18 @@ ExitCode run_derive(Arguments arguments)
         warn("the Lagrangian is degenerate: the accelerations are not determined by the equations");
     if (is_form(form, FormKind::discrete) && checked.report.mechanics.discrete.kind == Regularity::Kind::degenerate)
         warn("the discrete Lagrangian is degenerate: the arrow of a step is not determined by the equations");
-    const bool expanded = options.has("expand") || format == "sympy";
+    const bool expanded = options.has("expand");
     EquationSet equations = derive(form, checked.model, checked.system, checked.report, brackets,
                                    expanded ? Definitions::expanded : Definitions::kept);
     if (!expanded && format != "json") equations = with_written_blocks(std::move(equations), checked.model);
     std::string text;
     if (format == "json") {
         Record record = record_of(equations);
+        record["system"] = record_of(equation_system(checked.model, checked.system));
         add_unless_empty(record, "warnings", warnings);
         text = to_json(record);
     } else {
-        text = marked(format == "text"    ? print_text(equations)
-                      : format == "latex" ? print_latex(equations)
-                                          : print_sympy(equation_module(checked.model, checked.system, equations)),
-                      format, warnings);
+        text = marked(format == "text" ? print_text(equations) : print_latex(equations), format, warnings);
     }
     const std::string file = options.has("output") ? options.get("output") : "-";
     announce(text, file);

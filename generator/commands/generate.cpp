@@ -28,11 +28,9 @@ CommandSyntax generate_syntax(const std::string& form, const std::string& only)
              {"only", "KERNELS", only.c_str()},
              {"with", "KERNELS", "kernels beside those that every header has, e.g. taylor"},
              {"time-scale", "EXPR", "a kernel time_scale of this function of the state, for lagen::Reversible"},
-             {"report", "WHAT",
-              "on standard error: summary, the operations of each kernel before and after the passes that changed them "
-              "and its "
-              "costliest terms; full, every form that was tried",
-              nullptr, "summary"},
+             {"report", nullptr,
+              "on standard error the operations of each kernel before and after the passes that changed them, and its "
+              "costliest terms"},
              option::set,
              option::bind,
              {"unchecked", nullptr, "go on although the model is refuted; the header says so"},
@@ -94,7 +92,6 @@ ExitCode run_generate(Arguments arguments)
     if (options.help()) return ExitCode::done;
     const bool as_json = options.as_json();
     if (options.has("form")) (void)options.choice("form", form_names());
-    const bool full_report = options.has("report") && options.choice("report", {"summary", "full"}) == "full";
     if (options.has("depfile") && !options.has("output")) throw UsageError("lagen generate: --depfile needs --output");
     const std::string model = model_path(options.positional()[0]);
     const CheckedModel checked = load(model, options.settings(), options.has("unchecked"));
@@ -112,7 +109,7 @@ ExitCode run_generate(Arguments arguments)
     request.time_scale = time_scale_of(options, checked.model);
     const std::string output = options.has("output") ? options.get("output") : "-";
     const Generated generated = generate(checked, request);
-    if (request.report) write_standard_error(operations_text(generated.reports, full_report));
+    if (request.report) write_standard_error(operations_text(generated.reports));
     write_file(output, as_json ? to_json(record_of(generated)) + "\n" : generated.header);
     if (options.has("depfile")) {
         std::string inputs = escaped(model);

@@ -4,7 +4,7 @@
 #include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
 #include "commands/machine/write_file.hpp"
-#include "stability/scheme_limits.hpp"
+#include "commands/scene/linear_limits.hpp"
 #include "text/record.hpp"
 
 #include <fmt/core.h>
@@ -45,15 +45,15 @@ constexpr std::array<std::pair<const char*, const char*>, 5> other_schemes{
 std::vector<StabilityRow> stability_rows()
 {
     std::vector<StabilityRow> rows;
+    const auto add = [&](const char* name, const std::string& order, const std::string& of) {
+        if (const LinearLimits* limits = find_limits(of)) rows.push_back({name, order, *limits});
+    };
     for (const MethodEntry& method : method_table())
         if (method.kind == MethodKind::series)
-            for (const std::size_t order : {4U, 10U, 20U, 30U})
-                rows.push_back({method.name, std::to_string(order), taylor_limits(order)});
-        else if (*method.scheme != '\0')
-            rows.push_back({method.name, method.order, scheme_limits(method.scheme).value()});
-        else if (const std::optional<LinearLimits> limits = linear_limits(method.type))
-            rows.push_back({method.name, method.order, *limits});
-    for (const auto& [scheme, order] : other_schemes) rows.push_back({scheme, order, scheme_limits(scheme).value()});
+            for (const char* order : {"4", "10", "20", "30"}) add(method.name, order, fmt::format("taylor:{}", order));
+        else
+            add(method.name, method.order, *method.scheme != '\0' ? method.scheme : method.type);
+    for (const auto& [scheme, order] : other_schemes) add(scheme, order, scheme);
     return rows;
 }
 

@@ -123,7 +123,7 @@ void write_result(const Options& options, const std::string& text)
 ExitCode reduce_morphism(const Options& options, const MorphismFile& file)
 {
     require_apart(options, file);
-    const VerifiedMorphism verified = verify_morphism(file, 0);
+    const VerifiedMorphism verified = verify_morphism(file);
     const bool unchecked = options.has("unchecked");
     warn_of_morphism(verified, file.file->name, unchecked);
     const SystemMorphism map = elaborate_whole(file);

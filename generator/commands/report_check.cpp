@@ -135,25 +135,6 @@ std::string failures_text(const StructureReport& structure, ProofStatus status)
     return text;
 }
 
-/// "5 points, 60 digits: every proved residual is at most 3e-71"
-std::string confirmed_text(const StructureReport& structure, const Reevaluation& reevaluation)
-{
-    std::size_t count = 0;
-    for (const Check& check : structure.checks)
-        if (check.decision.status == ProofStatus::proved && check.reevaluation) ++count;
-    if (count == 0) return "nothing: no proved equation has terms";
-    if (reevaluation.points == 0) return "a proved residual has a finite value at none of the points that were tried";
-    const std::string where = fmt::format("{} points, {} digits", reevaluation.points, reevaluation_digits);
-    if (reevaluation.bound == 0) return fmt::format("{}: all proved residuals are exactly 0", where);
-    return fmt::format("{}: every proved residual is at most {:.0e}", where, reevaluation.bound);
-}
-
-/// "3e-71"
-std::string largest_text(const Reevaluation& reevaluation)
-{
-    return reevaluation.bound == 0 ? "0" : fmt::format("{:.0e}", reevaluation.bound);
-}
-
 /// Which matrix it is, where it is not d2L/dy2.
 const char* matrix_text(Regularity::Matrix matrix)
 {
@@ -245,14 +226,6 @@ Record values_record(const Values& values)
     return object_of(values, [](const auto& value) { return to_text(value); });
 }
 
-void add_verified(Record& record, const std::optional<Reevaluation>& reevaluation)
-{
-    if (reevaluation)
-        record["verified"] = {{"points", reevaluation->points},
-                              {"digits", reevaluation_digits},
-                              {"largest", largest_text(*reevaluation)}};
-}
-
 Record record_of(const Check& check)
 {
     const Decision& decision = check.decision;
@@ -267,7 +240,6 @@ Record record_of(const Check& check)
     add_unless_empty(record, "where", check.where);
     add_unless_empty(record, "evidence", decision.evidence);
     add_unless_empty(record, "hint", check.hint);
-    add_verified(record, check.reevaluation);
     return record;
 }
 
@@ -341,8 +313,6 @@ std::string report_text(const std::string& model, const Report& verified)
     for (const Regularity* each : {&verified.mechanics.discrete, &verified.mechanics.regularity})
         text += regularity_text(*each);
     text += nonholonomic_text(verified.mechanics);
-    if (const auto& again = structure.reevaluation)
-        text += fmt::format("  {:<16}{}\n", "re-evaluated", confirmed_text(structure, *again));
     if (!structure.note.empty()) text += fmt::format("  note: {}\n", structure.note);
     return text + failures_text(structure);
 }
@@ -378,7 +348,6 @@ Record record_of(const std::string& model, const Report& verified)
     if (is_discrete && regularity.kind != Regularity::Kind::absent)
         record["regularity_of_lagrangian"] = record_of(regularity);
     add_nonholonomic(record, verified.mechanics);
-    add_verified(record, structure.reevaluation);
     add_unless_empty(record, "note", structure.note);
     return record;
 }

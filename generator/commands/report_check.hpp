@@ -8,7 +8,7 @@
 
 namespace lagen {
 
-/// Text: verdict, counts in all and a kind of check, regularity, re-evaluation; then what is not proved (the first 20
+/// Text: verdict, counts in all and a kind of check, regularity; then what is not proved (the first 20
 /// of each status, the first of one Casimir, invariant or constraint) with its residual, witness and value, or
 /// evidence, and each hint once.
 [[nodiscard]] std::string report_text(const std::string& model, const Report& verified);

@@ -15,24 +15,23 @@ namespace lagen {
 
 namespace {
 
-Report verify_model(const System& system, std::size_t points)
+Report verify_model(const System& system)
 {
-    Report report = verify(system, {}, points);
+    Report report = verify(system);
     advise(system, report);
     return report;
 }
 
 /// `source`: what is known of the source already; null where nothing is.
-VerifiedMorphism verify_one(const MorphismFile& file, const SystemMorphism& morphism, const Report* source,
-                            std::size_t points)
+VerifiedMorphism verify_one(const MorphismFile& file, const SystemMorphism& morphism, const Report* source)
 {
     VerifiedMorphism verified;
     verified.name = file.name;
     verified.source_name = morphism.source.name;
     verified.target_name = morphism.target.name;
-    verified.map = verify(morphism, points);
-    verified.source = source != nullptr ? *source : verify_model(morphism.source, points);
-    verified.target = verify_model(morphism.target, points);
+    verified.map = verify(morphism);
+    verified.source = source != nullptr ? *source : verify_model(morphism.source);
+    verified.target = verify_model(morphism.target);
     return verified;
 }
 
@@ -117,11 +116,11 @@ void decide_equal(VerifiedMorphism& verified, const MorphismFile& file, const Sy
 
 } // namespace
 
-VerifiedMorphism verify_morphism(const MorphismFile& file, std::size_t points)
+VerifiedMorphism verify_morphism(const MorphismFile& file)
 {
     if (file.stages.empty()) {
         const SystemMorphism map = elaborate(file);
-        VerifiedMorphism verified = verify_one(file, map, nullptr, points);
+        VerifiedMorphism verified = verify_one(file, map, nullptr);
         decide_equal(verified, file, map);
         return verified;
     }
@@ -130,14 +129,14 @@ VerifiedMorphism verify_morphism(const MorphismFile& file, std::size_t points)
     for (const MorphismFile& stage : file.stages) {
         SystemMorphism next = elaborate(stage);
         const Report* middle = stages.empty() ? nullptr : &stages.back().target; // the same model as the source
-        stages.push_back(verify_one(stage, next, middle, points));
+        stages.push_back(verify_one(stage, next, middle));
         whole = whole ? composition(*whole, next) : std::move(next);
     }
     VerifiedMorphism verified;
     verified.name = file.name;
     verified.source_name = stages.front().source_name;
     verified.target_name = stages.back().target_name;
-    verified.map = verify(*whole, points);
+    verified.map = verify(*whole);
     decide_equal(verified, file, *whole);
     verified.source = stages.front().source;
     verified.target = stages.back().target;

@@ -15,7 +15,7 @@ struct VerifiedMorphism {
     Report source, target;
     std::vector<VerifiedMorphism> stages;
 };
-[[nodiscard]] VerifiedMorphism verify_morphism(const MorphismFile& file, std::size_t points);
+[[nodiscard]] VerifiedMorphism verify_morphism(const MorphismFile& file);
 
 /// The worst of the map, of both models and of all stages.
 [[nodiscard]] Verdict verdict_of(const VerifiedMorphism& verified);

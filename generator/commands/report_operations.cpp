@@ -113,17 +113,12 @@ std::string summary_of(const KernelReport& kernel)
 
 } // namespace
 
-std::string operations_text(const std::vector<KernelReport>& reports, bool full)
+std::string operations_text(const std::vector<KernelReport>& reports)
 {
-    std::string text;
-    if (full) {
-        for (const KernelReport& kernel : reports) text += to_text(kernel.report, kernel.kernel);
-        return text;
-    }
-    text = fmt::format("{:<66}{:>6} {:>6} {:>6} {:>9} {:>6} {:>8}\n", "operations", "+ -", "*", "/", "functions",
-                       "solves", "weight");
+    std::string text = fmt::format("{:<66}{:>6} {:>6} {:>6} {:>9} {:>6} {:>8}\n", "operations", "+ -", "*", "/",
+                                   "functions", "solves", "weight");
     for (const KernelReport& kernel : reports) text += summary_of(kernel);
-    return text + "--report=full lists every form that was tried\n";
+    return text;
 }
 
 } // namespace lagen

@@ -6,9 +6,9 @@
 
 namespace lagen {
 
-/// `full`: every form that was tried, with every pass. Else one table: of each kernel the operations as written, after
-/// each pass that changed them on the way to the form that was kept, and as kept; below them its costliest terms. Of
-/// several forms with the same operations the first is shown. Lines end in a line feed.
-[[nodiscard]] std::string operations_text(const std::vector<KernelReport>& reports, bool full);
+/// One table: of each kernel the operations as written, after each pass that changed them on the way to the form that
+/// was kept, and as kept; below them its costliest terms. Of several forms with the same operations the first is shown.
+/// Lines end in a line feed.
+[[nodiscard]] std::string operations_text(const std::vector<KernelReport>& reports);
 
 } // namespace lagen

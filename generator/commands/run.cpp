@@ -40,7 +40,8 @@ const CommandSyntax run_syntax{
     "Generates, compiles and integrates a scene. CSV on standard output unless --output or --format json, or --plot on "
     "a terminal. Of a morphism file: a scene of the source, the motion of the target from the image of its start, and "
     "how far they are apart.",
-    {option::scene,
+    {{"scene", "NAME",
+      "the scene; without it `default`, else the first; of several --plot draws all in the panels of the last"},
      {"form", "FORM", run_form_help.c_str()},
      {"method", "METHOD", "see `lagen methods`; without it the scene's, else dop853"},
      {"step", "H", "step of a fixed-step method"},
@@ -72,7 +73,6 @@ const CommandSyntax run_syntax{
      {"points", nullptr, "curves are the points at the rows, with nothing between them"},
      {"sphere", nullptr, "curves in space lie on a sphere around the origin"},
      {"like", "NAME", "--plot draws what [scene.NAME.plot] says"},
-     {"overlay", "NAME,..", "scenes that --plot draws as well, in the same panels (may be repeated)"},
      {"second-run", nullptr,
       "say what the state is worth, by a second run at a tenth of the tolerance or with half the step, however long "
       "the "
@@ -152,7 +152,7 @@ ExitCode run_run(Arguments arguments)
     if (options.has("form")) (void)options.choice("form", form_names());
     if (options.has("plot")) require_plot_format(options.get("plot"));
     if (options.has("output")) require_no_picture(options.get("output"));
-    for (const char* word : {"curves", "equal", "points", "sphere", "like", "overlay"})
+    for (const char* word : {"curves", "equal", "points", "sphere", "like"})
         if (options.has(word) && !options.has("plot"))
             throw UsageError(fmt::format("lagen run: --{} says what --plot draws: give --plot FILE.svg as well", word));
     (void)second_run_of(options);

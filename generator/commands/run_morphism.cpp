@@ -179,7 +179,7 @@ ExitCode run_morphism(const Options& options, const std::shared_ptr<const Source
     const MorphismFile morphism = read_morphism(file, options.settings(), choosers());
     require_apart(options, morphism);
     refuse_inputs(morphism);
-    const VerifiedMorphism verified = verify_morphism(morphism, 0);
+    const VerifiedMorphism verified = verify_morphism(morphism);
     warn_of_morphism(verified, file->name, options.has("unchecked"));
 
     CheckedModel from = as_read(source_of(morphism), options, options.settings());

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "notation/equation_set.hpp"
+#include "notation/equation_system.hpp"
 #include "text/record.hpp"
 
 namespace lagen {
@@ -18,6 +19,7 @@ enum class LongLines {
 [[nodiscard]] std::string print_latex(const EquationSet& equations); ///< a compilable fragment: align* blocks (amsmath)
 [[nodiscard]] std::string print_json(const EquationSet& equations);
 [[nodiscard]] Record record_of(const EquationSet& equations); ///< what print_json prints
+[[nodiscard]] Record record_of(const EquationSystem& system); ///< the member "system" beside it
 
 /// One tree as UTF-8 mathematics / LaTeX.
 [[nodiscard]] std::string latex_of(const Tree& tree, const EquationSet& symbols);

@@ -6,16 +6,19 @@
 ///     "other", "arguments": [..],
 ///                "mass": [{"symbol", "value"}]},
 ///       "relation": "at_least" | "at_most", "right": "...", "groups": [{"label", "value"}]}]}],
-///   "given": [..], "where": [{"symbol", "value"}], "statements": [{"formula", "status", "component": [..], "residual",
-///   "witness": {}, "value", "evidence"}]}
+///   "given": [..], "where": [{"symbol", "value"}], "system": {}, "statements": [{"formula", "status", "component":
+///   [..], "residual", "witness": {}, "value", "evidence"}]}
 /// `given` has blocks as `blocks`: what the model gives, L, brackets, constraints, claimed invariants; it is left out
 /// where there are none. `where` says what symbols of the equations stand for, in coordinates, parameters and others of
-/// the list; it is left out where there are none. `symbol` is left out of kind "zero", `mass` where the left side has
-/// no mass matrix; `other` is of kind "bracket", {symbol, other}; `arguments` are those of kind "component",
-/// symbol(arguments); `relation` is left out of equations, `statements` where there are none. Of kinds "differential",
-/// d symbol, and "form", d e^symbol, the right side is the sum of value e^{basis[0]} ^ e^{basis[1]} .. of the groups,
-/// each {"label", "value", "basis"}; of "section", e_symbol, and "commutator", [e_symbol, e_other], that of value
-/// e_{basis[0]}.
+/// the list; it is left out where there are none. `system`, {"parameters": [{"symbol", "value"}], "base": [..],
+/// "fibre": [..], "momenta": [..], "ambient": [..], "controls": [..], "states": [..], "definitions": [{"symbol",
+/// "value"}], "lagrangian", "hamiltonian", "constraints": [..], "rho": [{"indices", "value"}], "C": [{"indices",
+/// "value"}]}, is what EquationSystem has; what the model lacks is left out. `symbol` is left out of kind "zero",
+/// `mass` where the left side has no mass matrix; `other` is of kind "bracket", {symbol, other}; `arguments` are those
+/// of kind "component", symbol(arguments); `relation` is left out of equations, `statements` where there are none. Of
+/// kinds "differential", d symbol, and "form", d e^symbol, the right side is the sum of value e^{basis[0]} ^
+/// e^{basis[1]} .. of the groups, each {"label", "value", "basis"}; of "section", e_symbol, and "commutator",
+/// [e_symbol, e_other], that of value e_{basis[0]}.
 #include "emit/print_equations.hpp"
 #include "emit/print_equations_terms.hpp"
 #include "text/record.hpp"
@@ -99,6 +102,22 @@ Record record_of(const EquationBlock& block)
             {"equations", list_of(block.equations, [](const Equation& each) { return record_of(each); })}};
 }
 
+/// A list of {"symbol", "value"}.
+template <class Entry>
+Record values_of(const std::vector<Entry>& entries, std::string Entry::*symbol)
+{
+    return list_of(entries, [&](const Entry& entry) {
+        return Record{{"symbol", entry.*symbol}, {"value", to_text(entry.value)}};
+    });
+}
+
+Record structure_of(const std::vector<StructureEntry>& entries)
+{
+    return list_of(entries, [](const StructureEntry& entry) {
+        return Record{{"indices", entry.indices}, {"value", to_text(entry.value)}};
+    });
+}
+
 } // namespace
 
 Record record_of(const EquationSet& equations)
@@ -111,11 +130,21 @@ Record record_of(const EquationSet& equations)
                      {"form", equations.form},
                      {"blocks", blocks(equations.blocks)}};
     add_unless_empty(record, "given", blocks(equations.given));
-    add_unless_empty(record, "where", list_of(equations.where, [](const WhereEntry& entry) {
-                         return Record{{"symbol", entry.symbol}, {"value", to_text(entry.value)}};
-                     }));
+    add_unless_empty(record, "where", values_of(equations.where, &WhereEntry::symbol));
     add_unless_empty(record, "statements",
                      list_of(equations.statements, [](const DecidedStatement& each) { return record_of(each); }));
+    return record;
+}
+
+Record record_of(const EquationSystem& system)
+{
+    Record record = {{"parameters", values_of(system.parameters, &NamedTree::name)}};
+    for (const auto& [part, symbols] : system.parts) record[part] = symbols;
+    record["definitions"] = values_of(system.definitions, &NamedTree::name);
+    for (const NamedTree& function : system.functions) record[function.name] = to_text(function.value);
+    record["constraints"] = list_of(system.constraints, [](const Tree& constraint) { return to_text(constraint); });
+    record["rho"] = structure_of(system.rho);
+    record["C"] = structure_of(system.C);
     return record;
 }
 

@@ -136,7 +136,7 @@ class ZeroDecider {
     [[nodiscard]] std::optional<NamedPoint> sample_point() const;
 
     /// The residual at `points` regular points, with balls to 60 digits: precision grows until |value| < 1e-60 or zero
-    /// is excluded. For `check --verify`, with a decider of another seed than that which decided.
+    /// is excluded.
     [[nodiscard]] Reevaluation reevaluate(NodeId residual, std::size_t points) const;
 
     /// The largest certified bound of |value| at `points` regular points; infinite where there is none.

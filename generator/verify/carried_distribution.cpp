@@ -24,7 +24,7 @@ bool is_independent(MappedSystems& both, Judge& judge)
 
 Check decide_onto(MappedSystems& both, Judge& judge)
 {
-    Check onto{"constraint", {"Phi(D)"}, {}, {}, {}};
+    Check onto{"constraint", {"Phi(D)"}, {}};
     if (!is_independent(both, judge)) {
         onto.decision.evidence =
             "the sections of the target are not shown to be independent at every point of the image";
@@ -56,11 +56,8 @@ CarriedDistribution decide_carried(MappedSystems& both, Judge& judge)
             const NodeId residual = outside[alpha][a];
             if (both.graph.is_zero(residual)) continue;
             const std::string of = alpha + 1 < outside.size() ? both.velocity(alpha) : "drift";
-            carried.checks.push_back({"constraint",
-                                      {"Phi(" + of + ")", both.target_section(a)},
-                                      judge.decide(residual),
-                                      {},
-                                      judge.reevaluate(residual)});
+            carried.checks.push_back(
+                {"constraint", {"Phi(" + of + ")", both.target_section(a)}, judge.decide(residual)});
         }
     carried.checks.push_back(decide_onto(both, judge));
     carried.onto = carried.checks.back().decision.status == ProofStatus::proved;

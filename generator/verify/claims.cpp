@@ -12,15 +12,15 @@
 
 namespace lagen {
 
-Claims::Claims(const System& system, std::size_t points, const ProofBudget& budget)
-    : system_(system), points_(points), graph_(system.graph), partial_(graph_, system.algebroid.x),
+Claims::Claims(const System& system, const ProofBudget& budget)
+    : system_(system), graph_(system.graph), partial_(graph_, system.algebroid.x),
       setting_(proof_setting(graph_, system))
 {
     if (system.lagrangian) lagrangian_ = lagrangian_nodes(graph_, system);
     if (system.hamiltonian) hamiltonian_hessian_ = fibre_hessian(graph_, *system.hamiltonian, system.mu);
     require_triangular_constraints();
     refuse_zero_divisors(budget);
-    judge_ = std::make_unique<Judge>(graph_, setting_, points_, budget);
+    judge_ = std::make_unique<Judge>(graph_, setting_, budget);
     if (!judge_->decider().sample_point())
         note_ = "no point was found where everything in the model is defined and every condition of [base] holds";
 }

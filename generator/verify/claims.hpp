@@ -14,9 +14,9 @@ namespace lagen {
 
 class Claims {
   public:
-    /// `points`: of a re-evaluation; 0: none. `budget`: of each decision. Keeps a reference to `system`. Throws
-    /// ModelError where the base constraints are not triangular, and where a divisor of the model is zero everywhere.
-    Claims(const System& system, std::size_t points, const ProofBudget& budget);
+    /// `budget` is that of each decision. Keeps a reference to `system`. Throws ModelError where the base constraints
+    /// are not triangular, and where a divisor of the model is zero everywhere.
+    Claims(const System& system, const ProofBudget& budget);
 
     /// antisymmetry, anchor, jacobi, tangency of the constraints, Casimirs
     void decide_structure(StructureReport& structure);
@@ -70,7 +70,6 @@ class Claims {
     [[nodiscard]] ProofStatus closedness(const FormClaim& claim);
 
     const System& system_;
-    std::size_t points_;
     Graph graph_; ///< the system's, and what is derived here
     BaseGradient partial_;
     std::optional<LagrangianNodes> lagrangian_;

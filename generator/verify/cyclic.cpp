@@ -56,11 +56,11 @@ StructureReport cyclic_coordinates(const System& system, const ProofBudget& budg
     std::vector<Slopes> all;
     for (const Functions& each : functions_of(system))
         all.push_back({each.name, jacobian(graph, each.nodes, system.algebroid.x)});
-    Judge judge(graph, proof_setting(graph, system), 0, budget);
+    Judge judge(graph, proof_setting(graph, system), budget);
     StructureReport report;
     counted("coordinates", system.n(), [&](std::size_t i) {
         const std::string q = graph.input_name(system.algebroid.x[i]);
-        Check check{"cyclic", {q}, {}, {}, {}};
+        Check check{"cyclic", {q}, {}};
         check.decision.status = ProofStatus::proved;
         check.decision.residual = "0";
         for (const Slopes& each : all)

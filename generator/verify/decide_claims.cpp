@@ -24,7 +24,7 @@ bool is_of_function(const Residual& residual)
 /// Decided, with the names that its numbers stand for; the last one is a base coordinate or a function of the base.
 Check Claims::check_of(const Residual& residual)
 {
-    Check check{residual.name, {}, judge_->decide(residual.value), {}, judge_->reevaluate(residual.value)};
+    Check check{residual.name, {}, judge_->decide(residual.value)};
     for (const std::size_t index : residual.indices) {
         const bool last = check.indices.size() + 1 == residual.indices.size();
         if (last && residual.name == "anchor")
@@ -91,7 +91,7 @@ void Claims::decide_structure(StructureReport& structure)
             append_check(checks, *next);
         std::vector<NodeId> functions{f};
         functions.insert(functions.end(), text.parts.begin(), text.parts.end());
-        say_where(where, functions, checks, {name, {text.name}, {}, {}, {}});
+        say_where(where, functions, checks, {name, {text.name}, {}});
         std::ranges::move(checks, std::back_inserter(structure.checks));
     };
     for (std::size_t k = 0; k < system_.constraints.size(); ++k)
@@ -109,9 +109,7 @@ void Claims::say_where(WhereConstant& where, const std::vector<NodeId>& function
     if (!checks.empty() && std::ranges::none_of(checks, is_proved)) return;
     const WhereConstant::Conditions conditions = where.of(functions);
     if (checks.empty() && (!conditions.texts.empty() || !conditions.obstacle.empty())) {
-        const NodeId zero = graph_.constant(0);
-        none.decision = judge_->decide(zero);
-        none.reevaluation = judge_->reevaluate(zero);
+        none.decision = judge_->decide(graph_.constant(0));
         checks.push_back(std::move(none));
     }
     for (Check& check : checks) WhereConstant::restrict(check, conditions);
@@ -171,7 +169,7 @@ void Claims::decide_along_motions(Report& report, const std::vector<NamedTree>& 
     Activity activity("functions", claims.size());
     for (const NamedTree& claim : claims) {
         activity.next();
-        Check check{"invariant", {claim.name}, {}, {}, {}};
+        Check check{"invariant", {claim.name}, {}};
         const NodeId f = lower(claim.value);
         const Rate rate = motion->rate(momentum_in(f, names).value_or(f));
         if (!rate.value) {
@@ -183,11 +181,10 @@ void Claims::decide_along_motions(Report& report, const std::vector<NamedTree>& 
                 functions.push_back(motion->in_states(part));
             ProofSetting setting = setting_;
             setting.defined.insert(setting.defined.end(), functions.begin(), functions.end());
-            Judge judge(graph_, setting, points_, judge_->decider().budget());
+            Judge judge(graph_, setting, judge_->decider().budget());
             check.decision = judge.decide(*rate.value);
             if (check.decision.status == ProofStatus::proved)
                 WhereConstant::restrict(check, where.of(functions, divisors_of(rate, report.mechanics.regularity)));
-            check.reevaluation = judge.reevaluate(*rate.value);
             if (check.decision.status == ProofStatus::refuted && (rate.for_every_control || !everywhere)) {
                 check.decision = Decision{};
                 check.decision.evidence = rate.for_every_control
@@ -211,7 +208,7 @@ void Claims::decide_controls(Report& report)
     });
     report.control.maximum = decide_maximum(graph_, *system_.control, system_.mu, setting, judge_->decider().budget());
     const ControlMaximum& maximum = report.control.maximum;
-    Check check{"maximum", {}, {}, {}, {}};
+    Check check{"maximum", {}, {}};
     check.decision.status = maximum.kind == ControlMaximum::Kind::maximal   ? ProofStatus::proved
                             : maximum.kind == ControlMaximum::Kind::refuted ? ProofStatus::refuted
                                                                             : ProofStatus::undecided;
@@ -228,8 +225,8 @@ void Claims::decide_legendre(StructureReport& structure)
     const NodeId residual = graph_.subtract(hamiltonian, lagrangian_->energy);
     ProofSetting setting = setting_;
     setting.defined.push_back(hamiltonian);
-    Judge judge(graph_, setting, points_, judge_->decider().budget());
-    Check check{"legendre", {}, judge.decide(residual), {}, judge.reevaluate(residual)};
+    Judge judge(graph_, setting, judge_->decider().budget());
+    Check check{"legendre", {}, judge.decide(residual)};
     if (check.decision.status == ProofStatus::refuted)
         check.hint = "H is y^a dL/dy^a - L at mu_a = dL/dy^a; leave [hamiltonian] out, and it is found from L";
     structure.checks.push_back(std::move(check));

@@ -26,8 +26,7 @@ void Claims::decide_constraints(StructureReport& structure)
             ++structure.trivial;
             return;
         }
-        structure.checks.push_back(
-            {"constraint", std::move(indices), judge_->decide(residual), {}, judge_->reevaluate(residual)});
+        structure.checks.push_back({"constraint", std::move(indices), judge_->decide(residual)});
     };
     const std::vector<NodeId> B = constraint_rows(graph_, system_);
     for (std::size_t A = 0; A < distribution.constraints.size(); ++A) {
@@ -44,7 +43,7 @@ void Claims::decide_constraints(StructureReport& structure)
     }
     const FibreRank rank = fibre_rank(graph_, B, distribution.constraints.size(), r, judge_->decider());
     if (rank.rank && *rank.rank == r - k) return;
-    Check check{"constraint", {"number"}, {}, {}, {}};
+    Check check{"constraint", {"number"}, {}};
     check.decision.evidence = "the rank of the constraints is not decided";
     if (rank.rank) {
         check.decision.status = ProofStatus::refuted;

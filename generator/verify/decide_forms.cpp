@@ -71,13 +71,13 @@ Claims::Vanishing Claims::vanishing(const std::string& name, const FormClaim& cl
     for (const NodeId node : defined_parts(claim)) setting.defined.push_back(node);
     if (name == "equals")
         setting.defined.insert(setting.defined.end(), claim.equals_parts.begin(), claim.equals_parts.end());
-    Judge judge(graph_, setting, points_, judge_->decider().budget());
+    Judge judge(graph_, setting, judge_->decider().budget());
     std::vector<Check> checks;
     if (residual.components.empty() && !setting.defined.empty())
         if (Decision zero = judge.decide(graph_.constant(0)); zero.status != ProofStatus::proved)
-            checks.push_back({name, {claim.name}, std::move(zero), {}, {}});
+            checks.push_back({name, {claim.name}, std::move(zero)});
     for (const auto& [index, value] : residual.components) {
-        Check check{name, {claim.name}, judge.decide(value), {}, judge.reevaluate(value)};
+        Check check{name, {claim.name}, judge.decide(value)};
         for (const std::size_t a : index) check.indices.push_back(graph_.input_name(system_.algebroid.y[a]));
         checks.push_back(std::move(check));
     }
@@ -97,7 +97,7 @@ void Claims::decide_forms(StructureReport& structure)
             Vanishing closed = vanishing("closed", claim, differential(partial_, system_.algebroid, claim.form));
             // A closed function is a Casimir.
             if (claim.form.degree == 0)
-                say_where(where, defined_parts(claim), closed.checks, {"closed", {claim.name}, {}, {}, {}});
+                say_where(where, defined_parts(claim), closed.checks, {"closed", {claim.name}, {}});
             report.closed = status_of(closed.checks);
             append(std::move(closed));
         } else {

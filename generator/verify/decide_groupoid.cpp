@@ -82,7 +82,7 @@ void Claims::decide_action(StructureReport& structure)
             ++structure.trivial;
             continue;
         }
-        Check check{"action", {graph_.input_name(x[i])}, claims.decide(claims.residuals()[i]), {}, {}};
+        Check check{"action", {graph_.input_name(x[i])}, claims.decide(claims.residuals()[i])};
         if (check.decision.status != ProofStatus::proved && !hinted) {
             hinted = true;
             if (claims.is_left_action())
@@ -102,7 +102,7 @@ void Claims::append_equality(StructureReport& structure, const char* name, std::
         ++structure.trivial;
         return;
     }
-    structure.checks.push_back({name, std::move(indices), judge_->decide(residual), {}, judge_->reevaluate(residual)});
+    structure.checks.push_back({name, std::move(indices), judge_->decide(residual)});
 }
 
 void Claims::decide_groupoid(StructureReport& structure)

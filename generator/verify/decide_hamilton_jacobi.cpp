@@ -19,7 +19,7 @@ void Claims::decide_hamilton_jacobi(StructureReport& structure, const Regularity
         Decision open;
         open.evidence = degenerate ? "the Lagrangian is degenerate: there is no H on E*"
                                    : "the velocities are no closed function of the momenta; [hamiltonian] H gives one";
-        structure.checks.push_back({"hamilton_jacobi", {}, std::move(open), {}, {}});
+        structure.checks.push_back({"hamilton_jacobi", {}, std::move(open)});
         return;
     }
     const HamiltonJacobiNodes nodes = hamilton_jacobi(graph_, system_, *hamiltonian, system_.hamilton_jacobi->alpha);
@@ -27,7 +27,7 @@ void Claims::decide_hamilton_jacobi(StructureReport& structure, const Regularity
     for (const std::vector<NodeId>* list : {&system_.hamilton_jacobi->alpha, &system_.hamilton_jacobi->parts})
         for (const NodeId node : *list)
             if (!graph_.is_constant(node)) setting.defined.push_back(node);
-    Judge judge(graph_, setting, points_, judge_->decider().budget());
+    Judge judge(graph_, setting, judge_->decider().budget());
     const auto name_of = [&](std::size_t a) { return graph_.input_name(system_.algebroid.y[a]); };
     std::vector<Check> checks;
     const auto append = [&](const char* name, std::vector<std::string> indices, NodeId value, ProofStatus& status) {
@@ -35,7 +35,7 @@ void Claims::decide_hamilton_jacobi(StructureReport& structure, const Regularity
             ++structure.trivial;
             return;
         }
-        Check check{name, std::move(indices), judge.decide(value), {}, judge.reevaluate(value)};
+        Check check{name, std::move(indices), judge.decide(value)};
         status = both(status, check.decision.status);
         checks.push_back(std::move(check));
     };
@@ -53,10 +53,10 @@ void Claims::decide_hamilton_jacobi(StructureReport& structure, const Regularity
     std::vector<NodeId> functions = system_.hamilton_jacobi->alpha;
     functions.insert(functions.end(), system_.hamilton_jacobi->parts.begin(), system_.hamilton_jacobi->parts.end());
     if (where.of(functions).obstacle.empty()) // what is proved is proved of each point where alpha is defined
-        say_where(where, functions, checks, {"hamilton_jacobi", {}, {}, {}, {}});
+        say_where(where, functions, checks, {"hamilton_jacobi", {}, {}});
     std::ranges::move(checks, std::back_inserter(structure.checks));
     if (defined != ProofStatus::proved)
-        structure.checks.push_back({"hamilton_jacobi", {}, judge.decide(graph_.constant(0)), {}, {}});
+        structure.checks.push_back({"hamilton_jacobi", {}, judge.decide(graph_.constant(0))});
 }
 
 } // namespace lagen

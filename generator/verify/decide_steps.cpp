@@ -40,7 +40,7 @@ void Claims::decide_along_steps(Report& report, const std::vector<NamedTree>& cl
     const bool everywhere = report.mechanics.discrete.kind != Regularity::Kind::degenerate;
     Lowering lower(graph_);
     for (const NamedTree& claim : claims) {
-        Check check{"invariant", {claim.name}, {}, {}, {}};
+        Check check{"invariant", {claim.name}, {}};
         check.meaning = fmt::format("the change of {} over a step", claim.name);
         if (has_motions()) check.indices.emplace_back("discrete");
         if (const std::string name = foreign_name(system_, claim.value); !name.empty()) {

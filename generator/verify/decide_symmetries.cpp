@@ -20,7 +20,7 @@ void Claims::decide_symmetries(StructureReport& structure)
         if (lagrangian_ || system_.hamiltonian) {
             const NodeId change = lagrangian_ ? lift_of_lagrangian(graph_, system_, *lagrangian_, claim.s)
                                               : lift_of_hamiltonian(graph_, system_, claim.s);
-            Check check{"symmetry", {claim.name}, judge_->decide(change), {}, {}};
+            Check check{"symmetry", {claim.name}, judge_->decide(change)};
             const NodeId momentum = contraction(graph_, lagrangian_ ? lagrangian_->fibre.momenta : system_.mu, claim.s);
             if (check.decision.status == ProofStatus::proved)
                 if (WhereConstant::Conditions found = where.of({momentum}); found.obstacle.empty())
@@ -29,8 +29,7 @@ void Claims::decide_symmetries(StructureReport& structure)
         }
         if (!system_.discrete || !system_.discrete->written) continue;
         const NodeId residual = lift_of_discrete_lagrangian(graph_, system_, claim.s);
-        Check steps{
-            "symmetry", {claim.name}, decide_on_arrows(graph_, system_, residual, judge_->decider().budget()), {}, {}};
+        Check steps{"symmetry", {claim.name}, decide_on_arrows(graph_, system_, residual, judge_->decider().budget())};
         if (lagrangian_ || system_.hamiltonian) steps.indices.emplace_back("discrete");
         steps.meaning = "the derivative of the discrete Lagrangian along the complete lift of " + claim.name;
         append(std::move(steps), "the residual is the change of the momentum p_a s^a over a step without forces");

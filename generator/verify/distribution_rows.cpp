@@ -253,7 +253,7 @@ Check independence(Graph& graph, const std::vector<NodeId>& entries, std::vector
     const ZeroDecider& decider = judge.decider();
     const std::size_t k = names.size();
     const Rows matrix{graph, entries, entries.size() / k};
-    Check check{"independent", std::move(names), {}, {}, {}};
+    Check check{"independent", std::move(names), {}};
     const auto minors = minors_of(matrix, k, decider);
     if (!minors) {
         check.decision.evidence = "the minors are more, or larger, than those that are looked at";
@@ -349,7 +349,7 @@ std::string text_of(Graph& graph, const std::vector<NodeId>& form, const std::ve
 Integrability decide_integrability(Graph& graph, const System& system, const ProofSetting& setting,
                                    const ProofBudget& budget, const std::vector<NodeId>& given)
 {
-    Judge judge(graph, setting, 0, budget);
+    Judge judge(graph, setting, budget);
     const ZeroDecider& decider = judge.decider();
     const ConstraintHull hull = constraint_hull(graph, system);
     const std::vector<std::vector<NodeId>> forms = annihilators(graph, system, decider, given);

@@ -26,7 +26,7 @@ void append_involutive(StructureReport& structure, const System& system)
         const std::vector<std::string> pair{check.indices[0], check.indices[1]};
         const bool known = !found.empty() && found.back().indices == pair;
         if (known && !is_worse(check, found.back())) continue;
-        Check involutive{"involutive", pair, check.decision, {}, {}};
+        Check involutive{"involutive", pair, check.decision};
         if (check.decision.status == ProofStatus::refuted)
             involutive.hint = "[" + pair[0] + ", " + pair[1] + "] leaves the distribution along " + check.indices[2] +
                               ": a subbundle needs [rho(" + pair[0] + "), rho(" + pair[1] +

@@ -6,9 +6,8 @@
 
 namespace lagen {
 
-Judge::Judge(const Graph& graph, ProofSetting setting, std::size_t points, const ProofBudget& budget)
-    : graph_(graph), setting_(std::move(setting)), points_(points),
-      decider_(std::make_unique<ZeroDecider>(graph, setting_, budget))
+Judge::Judge(const Graph& graph, ProofSetting setting, const ProofBudget& budget)
+    : graph_(graph), setting_(std::move(setting)), decider_(std::make_unique<ZeroDecider>(graph, setting_, budget))
 {
 }
 
@@ -24,19 +23,6 @@ const Decision& Judge::decide(NodeId residual)
     const auto known = decisions_.find(residual);
     if (known != decisions_.end()) return known->second;
     return decisions_.emplace(residual, decide_anew(residual)).first->second;
-}
-
-std::optional<Reevaluation> Judge::reevaluate(NodeId residual)
-{
-    if (points_ == 0) return std::nullopt;
-    const auto known = reevaluations_.find(residual);
-    if (known != reevaluations_.end()) return known->second;
-    if (second_ == nullptr) {
-        ProofBudget budget = decider_->budget();
-        budget.seed = reevaluation_seed;
-        second_ = std::make_unique<ZeroDecider>(graph_, setting_, budget);
-    }
-    return reevaluations_.emplace(residual, second_->reevaluate(residual, points_)).first->second;
 }
 
 } // namespace lagen

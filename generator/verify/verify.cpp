@@ -4,8 +4,6 @@
 #include "activity.hpp"
 #include "verify/claims.hpp"
 
-#include <algorithm>
-
 namespace lagen {
 
 const char* to_text(Verdict verdict)
@@ -28,42 +26,12 @@ Verdict verdict_of(const StructureReport& structure)
     return verdict;
 }
 
-namespace {
-
-std::optional<Reevaluation> summary_of(const StructureReport& structure, std::size_t points)
-{
-    if (points == 0) return std::nullopt;
-    Reevaluation summary;
-    summary.points = points;
-    for (const Check& check : structure.checks) {
-        if (check.decision.status != ProofStatus::proved || !check.reevaluation) continue;
-        summary.points = std::min(summary.points, check.reevaluation->points);
-        summary.bound = std::max(summary.bound, check.reevaluation->bound);
-    }
-    return summary;
-}
-
-} // namespace
-
-void require_confirmed(const Check& check)
-{
-    if (check.decision.status != ProofStatus::proved || !check.reevaluation || !check.reevaluation->zero_excluded)
-        return;
-    std::string what = check.name;
-    for (const std::string& index : check.indices) what += " " + index;
-    std::string where;
-    for (const auto& [name, value] : check.reevaluation->where)
-        where += (where.empty() ? " at " : ", ") + name + " = " + to_text(value);
-    throw InternalError("the residual of " + what + " was proved to be zero, and is certainly not zero" + where);
-}
-
-Report verify(const System& system, const std::vector<NamedTree>& extra_invariants, std::size_t points,
-              const ProofBudget& budget)
+Report verify(const System& system, const std::vector<NamedTree>& extra_invariants, const ProofBudget& budget)
 {
     Report report;
     const Activity whole("deciding " + system.name);
     std::optional<Activity> activity(std::in_place, "divisors");
-    Claims claims(system, points, budget);
+    Claims claims(system, budget);
     activity.emplace("structure equations");
     claims.decide_structure(report.structure);
     append_involutive(report.structure, system);
@@ -83,8 +51,6 @@ Report verify(const System& system, const std::vector<NamedTree>& extra_invarian
     claims.decide_invariants(report, extra_invariants);
     activity.emplace("controls");
     claims.decide_controls(report);
-    for (const Check& check : report.structure.checks) require_confirmed(check);
-    report.structure.reevaluation = summary_of(report.structure, points);
     report.structure.verdict = verdict_of(report.structure);
     return report;
 }
@@ -97,7 +63,7 @@ bool rests_on_values(const Regularity& known)
 
 Regularity verify_regularity(const System& system)
 {
-    return Claims(system, 0, {}).decide_regularity();
+    return Claims(system, {}).decide_regularity();
 }
 
 } // namespace lagen

@@ -29,8 +29,7 @@ struct Check {
     std::vector<std::string>
         indices; ///< names, e.g. {"w1", "w2", "g3"} for anchor (a, b, i); {"w1","w2","w3","w1"} for jacobi (a, b, c, v)
     Decision decision;
-    std::string hint;                         ///< may be empty
-    std::optional<Reevaluation> reevaluation; ///< where it was asked for and there is a residual
+    std::string hint = {};               ///< may be empty
     std::vector<std::string> where = {}; ///< of what is proved there alone: strict conditions, which the domain does
                                          ///< not imply; what is constant may change where a motion crosses them
     std::string meaning = {};            ///< what the residual is, where `name` and `indices` do not tell
@@ -121,8 +120,6 @@ struct StructureReport {
     std::vector<FormReport> forms;
     std::optional<HamiltonJacobiReport> hamilton_jacobi;
     std::string note; ///< e.g. "no regular point was found: ..."
-    std::optional<Reevaluation>
-        reevaluation; ///< of all residuals that were proved: the least points, the largest bound
 };
 
 /// Whether the brackets of a distribution's sections lie in it, which stands outside the verdict.
@@ -166,14 +163,10 @@ struct Report {
     ControlReport control;
 };
 
-/// Digits to which `verify` re-evaluates.
-constexpr int reevaluation_digits = 60;
-
-/// Runs every check that the system calls for, on extra invariants (closed trees from the command line) too. With
-/// `points` each residual is evaluated again at as many regular points, others than those of the decision. A smaller
+/// Runs every check that the system calls for, on extra invariants (closed trees from the command line) too. A smaller
 /// `budget` leaves more undecided, sooner.
 [[nodiscard]] Report verify(const System& system, const std::vector<NamedTree>& extra_invariants = {},
-                            std::size_t points = 0, const ProofBudget& budget = {});
+                            const ProofBudget& budget = {});
 
 /// What `verify` says of the fibre Hessian, alone.
 [[nodiscard]] Regularity verify_regularity(const System& system);
@@ -184,8 +177,5 @@ void append_involutive(StructureReport& structure, const System& system);
 /// What `Decision::evidence` says where the construction of an algebroid holds.
 inline constexpr const char* construction_argument =
     "by construction: a frame of what is proved to be an algebroid, and its determinant is not zero";
-
-/// Throws InternalError where a residual was proved to be zero and its re-evaluation excludes that.
-void require_confirmed(const Check& check);
 
 } // namespace lagen

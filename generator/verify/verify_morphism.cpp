@@ -15,10 +15,10 @@ namespace {
 
 class MorphismClaims {
   public:
-    MorphismClaims(const SystemMorphism& morphism, std::size_t points, const ProofBudget& budget)
+    MorphismClaims(const SystemMorphism& morphism, const ProofBudget& budget)
         : both_(morphism), morphism_(both_.morphism), from_(both_.from()), to_(both_.to()), graph_(both_.graph),
           budget_(budget), along_(both_.along), matrix_(both_.matrix),
-          judge_(std::make_unique<Judge>(graph_, both_.setting(), points, budget))
+          judge_(std::make_unique<Judge>(graph_, both_.setting(), budget))
     {
     }
 
@@ -46,8 +46,7 @@ class MorphismClaims {
             ++report_.structure.trivial;
             return;
         }
-        report_.structure.checks.push_back(
-            {name, std::move(indices), judge_->decide(residual), {}, judge_->reevaluate(residual)});
+        report_.structure.checks.push_back({name, std::move(indices), judge_->decide(residual)});
     }
 
     void decide_constraints()
@@ -139,7 +138,7 @@ class MorphismClaims {
     {
         Decision open;
         open.evidence = why;
-        report_.structure.checks.push_back({"invariance", std::move(indices), std::move(open), {}, {}});
+        report_.structure.checks.push_back({"invariance", std::move(indices), std::move(open)});
     }
 
     void find_reach()
@@ -168,7 +167,7 @@ class MorphismClaims {
             if (graph_.is_zero(residual))
                 ++report_.structure.trivial;
             else
-                report_.structure.checks.push_back({name, std::move(indices), decider.decide(residual), {}, {}});
+                report_.structure.checks.push_back({name, std::move(indices), decider.decide(residual)});
         };
 
         const Arrow image = image_of(graph_, morphism_, g);
@@ -212,7 +211,6 @@ class MorphismClaims {
     void conclude()
     {
         StructureReport& structure = report_.structure;
-        for (const Check& check : structure.checks) require_confirmed(check);
         structure.verdict = verdict_of(structure);
         if (structure.verdict != Verdict::valid) return;
         const bool both = from_.lagrangian && to_.lagrangian;
@@ -259,16 +257,16 @@ Verdict worse(Verdict a, Verdict b)
     return Verdict::valid;
 }
 
-MorphismReport verify(const SystemMorphism& morphism, std::size_t points, const ProofBudget& budget)
+MorphismReport verify(const SystemMorphism& morphism, const ProofBudget& budget)
 {
-    return MorphismClaims(morphism, points, budget).run();
+    return MorphismClaims(morphism, budget).run();
 }
 
 void append_equality(StructureReport& structure, const SystemMorphism& morphism, const SystemMorphism& other,
                      const ProofBudget& budget)
 {
     MappedSystems both(morphism);
-    Judge judge(both.graph, both.setting(), 0, budget);
+    Judge judge(both.graph, both.setting(), budget);
     const auto compare = [&](const std::vector<NodeId>& mine, const std::vector<NodeId>& theirs, const auto& name_of) {
         if (mine.size() != theirs.size()) return;
         const std::vector<NodeId> moved = transplant(both.graph, other.source.graph, theirs, {});
@@ -277,7 +275,7 @@ void append_equality(StructureReport& structure, const SystemMorphism& morphism,
             if (both.graph.is_zero(residual))
                 ++structure.trivial;
             else
-                structure.checks.push_back({"equals", {name_of(k)}, judge.decide(residual), {}, {}});
+                structure.checks.push_back({"equals", {name_of(k)}, judge.decide(residual)});
         }
     };
     const System& to = both.to();

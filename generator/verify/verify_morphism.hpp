@@ -47,9 +47,8 @@ struct MorphismReport {
     MorphismTheorems theorems;
 };
 
-/// Of the map alone; the models are verified by `verify` of each. `points` as there.
-[[nodiscard]] MorphismReport verify(const SystemMorphism& morphism, std::size_t points = 0,
-                                    const ProofBudget& budget = {});
+/// Of the map alone; the models are verified by `verify` of each.
+[[nodiscard]] MorphismReport verify(const SystemMorphism& morphism, const ProofBudget& budget = {});
 
 /// Decides that `morphism` is the map `other` between the same systems: phi^i, y'^a, u' and W' where both give them,
 /// and the target's parameters.

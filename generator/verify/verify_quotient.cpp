@@ -85,7 +85,7 @@ StructureReport verify_right_action(const System& moving, const ProofBudget& bud
 bool is_invariant(Graph& graph, const System& whole, const InfinitesimalAction& action, NodeId f,
                   const ProofBudget& budget)
 {
-    Judge judge(graph, proof_setting(graph, whole), 0, budget);
+    Judge judge(graph, proof_setting(graph, whole), budget);
     return std::ranges::all_of(action.fields, [&](const std::vector<NodeId>& X) {
         const NodeId rate = lift_of_function(graph, whole, f, X);
         return graph.is_zero(rate) || judge.decide(rate).status == ProofStatus::proved;
@@ -95,7 +95,7 @@ bool is_invariant(Graph& graph, const System& whole, const InfinitesimalAction& 
 bool is_invariant_set(Graph& graph, const System& whole, const InfinitesimalAction& action, NodeId f,
                       const ProofBudget& budget)
 {
-    Judge judge(graph, proof_setting(graph, whole), 0, budget);
+    Judge judge(graph, proof_setting(graph, whole), budget);
     const auto is_zero = [&](NodeId node) {
         return graph.is_zero(node) || judge.decide(node).status == ProofStatus::proved;
     };
@@ -109,10 +109,10 @@ StructureReport verify_symmetry(Graph& graph, const System& whole, const Infinit
                                 const std::vector<std::string>& names, const ProofBudget& budget)
 {
     StructureReport report;
-    Judge judge(graph, proof_setting(graph, whole), 0, budget);
+    Judge judge(graph, proof_setting(graph, whole), budget);
     counted("symmetries of L", action.fields.size(), [&](std::size_t b) {
         Decision decision = judge.decide(lift_of_function(graph, whole, *whole.lagrangian, action.fields[b]));
-        report.checks.push_back({"symmetry", {names[b]}, std::move(decision), {}, {}});
+        report.checks.push_back({"symmetry", {names[b]}, std::move(decision)});
     });
     report.verdict = verdict_of(report);
     return report;
@@ -151,7 +151,7 @@ StructureReport verify_quotient(Graph& graph, const System& whole, const Infinit
     setting.variables.insert(setting.variables.end(), rates.begin(), rates.end());
     setting.variables.insert(setting.variables.end(), quotient.w.begin(), quotient.w.end());
     setting.defined.push_back(graph.divide(graph.constant(1), quotient.determinant));
-    Judge judge(graph, setting, 0, budget);
+    Judge judge(graph, setting, budget);
     counted("equations of the quotient", reduced.r(), [&](std::size_t a) {
         NodeId sum = graph.negate(wanted[a]);
         if (a < u.size())
@@ -159,7 +159,7 @@ StructureReport verify_quotient(Graph& graph, const System& whole, const Infinit
         else
             for (const std::size_t i : all)
                 sum = graph.add(sum, graph.multiply(quotient.xi[a - u.size()][i], expressions[i]));
-        report.checks.push_back({"projects", {name_of(a)}, judge.decide(sum), {}, {}});
+        report.checks.push_back({"projects", {name_of(a)}, judge.decide(sum)});
     });
     report.verdict = verdict_of(report);
     return report;

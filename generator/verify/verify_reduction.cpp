@@ -48,7 +48,7 @@ class Reduction {
                 list->push_back(graph_.input(name));
                 setting.variables.push_back(list->back());
             }
-        judge_ = std::make_unique<Judge>(graph_, std::move(setting), 0, budget);
+        judge_ = std::make_unique<Judge>(graph_, std::move(setting), budget);
     }
 
     ReductionReport run()
@@ -68,7 +68,7 @@ class Reduction {
   private:
     void append(const char* form, std::string component, Decision decision)
     {
-        report_.checks.push_back({"projects", {form, std::move(component)}, std::move(decision), {}, {}});
+        report_.checks.push_back({"projects", {form, std::move(component)}, std::move(decision)});
     }
     void decide(const char* form, std::string component, NodeId residual)
     {
@@ -168,7 +168,7 @@ class Reduction {
                 if (decision.status == ProofStatus::proved && !graph_.is_zero(residual))
                     decision = judge_->decide(residual);
             all = all && decision.status == ProofStatus::proved;
-            paths_.push_back({"paths", {"lifts", both_.velocity(c)}, std::move(decision), {}, {}});
+            paths_.push_back({"paths", {"lifts", both_.velocity(c)}, std::move(decision)});
         });
         return all;
     }
@@ -193,7 +193,7 @@ class Reduction {
         const auto compare = [&](const std::vector<NodeId>& moved, const std::vector<NodeId>& wanted, auto name_of) {
             counted("variations", moved.size(), [&](std::size_t k) {
                 Decision decision = judge_->decide(graph_.subtract(moved[k], wanted[k]));
-                paths_.push_back({"paths", {"variations", name_of(k)}, std::move(decision), {}, {}});
+                paths_.push_back({"paths", {"variations", name_of(k)}, std::move(decision)});
             });
         };
         compare(varied(graph_, from_.algebroid, delta, both_.morphism.base), along(target.x),

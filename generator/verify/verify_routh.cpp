@@ -94,9 +94,9 @@ StructureReport verify_routh(Graph& graph, const System& system, const Routhian&
     for (const NodeId node : variables)
         if (std::ranges::find(setting.variables, node) == setting.variables.end()) setting.variables.push_back(node);
     setting.defined.insert(setting.defined.end(), routhian.velocities.begin(), routhian.velocities.end());
-    Judge judge(graph, setting, 0, budget);
+    Judge judge(graph, setting, budget);
     const auto append = [&](const char* name, NodeId about, NodeId residual) -> Check& {
-        return report.checks.emplace_back(Check{name, {name_of(about)}, judge.decide(residual), {}, {}});
+        return report.checks.emplace_back(Check{name, {name_of(about)}, judge.decide(residual)});
     };
     // The momenta are constant where they do not jump.
     WhereConstant jumps(graph, setting, budget,

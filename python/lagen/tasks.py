@@ -5,7 +5,6 @@ import csv
 import json
 import os
 import tempfile
-import types
 
 from .command import call
 from .results import Check, Run, Table
@@ -75,14 +74,14 @@ def check(*models, **options):
 
 
 def equations(model, **options):
-    """The equations of the model in SymPy: the module that `lagen derive --format sympy` writes.
+    """The equations of the model in SymPy, with a right-hand side for numbers: what `lagen derive` derives.
 
     >>> top = lagen.equations("heavy_top.toml")
     >>> top.rhs(0, [0.6, 0, 0.8, 0.9, -0.4, 1.6], {"mgl": 2})
 
     Raises Error as `run`, and ImportError where SymPy is not installed.
     """
-    text, _ = call("derive", model, format="sympy", **options)
-    module = types.ModuleType("lagen_equations")
-    exec(compile(text, f"<lagen derive {os.fspath(model)}>", "exec"), module.__dict__)  # lagen wrote it
-    return module
+    from .symbolic import equations_of
+
+    text, _ = call("derive", model, format="json", expand=True, **options)
+    return equations_of(json.loads(text))

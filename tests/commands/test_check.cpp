@@ -75,36 +75,6 @@ TEST_CASE("a refuted model shows its residual and a witness, and exits 1")
     CHECK(check["value"].number() == 1);
     CHECK(check["hint"].text ==
           "[u, v] needs component v = 1/x, given is none; with it all equations of the algebroid hold");
-    CHECK_FALSE(check.has("verified"));
-}
-
-TEST_CASE("--verify evaluates every residual again and says so in text and JSON")
-{
-    const json::Value value = json::parse(call({"check", "heavy_top.toml", "--verify", "--format", "json"}).out);
-    CHECK(value["verdict"].text == "valid");
-    REQUIRE(value.has("verified"));
-    CHECK(value["verified"].keys == std::vector<std::string>{"points", "digits", "largest"});
-    CHECK(value["verified"]["points"].text == "5");
-    CHECK(value["verified"]["digits"].text == "60");
-    CHECK(std::stod(value["verified"]["largest"].text) < 1e-60);
-    REQUIRE(value["checks"].size() > 0);
-    for (std::size_t k = 0; k < value["checks"].size(); ++k) {
-        CHECK(value["checks"][k]["verified"]["points"].text == "5");
-        CHECK(std::stod(value["checks"][k]["verified"]["largest"].text) < 1e-60);
-    }
-    const Outcome text = call({"check", "heavy_top.toml", "--verify"});
-    CHECK(text.code == 0);
-    CHECK(text.out.find("\n  re-evaluated    5 points, 60 digits: every proved residual is at most ") !=
-          std::string::npos);
-    CHECK(call({"check", "heavy_top.toml"}).out.find("re-evaluated") == std::string::npos);
-    const auto said = [](const std::string& model) {
-        const std::string out = call({"check", model, "--verify"}).out;
-        const std::size_t begin = out.find("  re-evaluated");
-        return begin == std::string::npos ? out : out.substr(begin, out.find('\n', begin) - begin);
-    };
-    CHECK(said("heisenberg.toml") == "  re-evaluated    5 points, 60 digits: all proved residuals are exactly 0");
-    CHECK(said("pendulum.toml") == "  re-evaluated    nothing: no proved equation has terms");
-    CHECK(call({"check", "refuted.toml", "--verify"}).code == 1);
 }
 
 TEST_CASE("a proved maximum beside an angle says of every control where it is, in text and JSON")

@@ -106,8 +106,13 @@ L = "m*u^2/2 + I*w^2/2"
     CHECK(flat.find("where") == std::string::npos);
     CHECK(call({"derive", folder + "/a.toml", "--format", "json"}).out.find(R"("where": [{"symbol": "I", "value": )") !=
           std::string::npos);
-    CHECK(call({"derive", folder + "/a.toml", "--format", "sympy"}).out ==
-          call({"derive", folder + "/a.toml", "--format", "sympy", "--expand"}).out);
+    CHECK(
+        call({"derive", folder + "/a.toml", "--format", "json"})
+            .out.find(
+                R"("system": {"parameters": [{"symbol": "J", "value": "1"}, {"symbol": "m", "value": "2"}], "base": ["x"], )"
+                R"("fibre": ["u", "w"], "momenta": ["p_u", "p_w"], "definitions": [{"symbol": "I", "value": )"
+                R"("J + m*(2 + cos(x))^2"}], "lagrangian": "m*u^2/2 + (J + m*(2 + cos(x))^2)*w^2/2", "constraints": [], )"
+                R"("rho": [{"indices": ["x", "u"], "value": "1"}], "C": []})") != std::string::npos);
 }
 
 TEST_CASE("-o writes the equations to a file")

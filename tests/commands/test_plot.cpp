@@ -248,7 +248,7 @@ TEST_CASE("columns over time have a panel a unit, and runs of other scenes stand
     const auto [series, lines] = draw({});
     CHECK_THAT(series, Catch::EndsWith(": 2 panels, 3 curves\n"));
     CHECK_THAT(lines, Catch::Contains(">base coordinates [m]<") && Catch::Contains(">th [rad]<"));
-    const auto [both, runs] = draw({"--like", "fast", "--overlay", "fast", "--equal"});
+    const auto [both, runs] = draw({"--like", "fast", "--scene", "fast", "--scene", "default", "--equal"});
     CHECK_THAT(both, Catch::Contains("swing, scene fast: ok") && Catch::EndsWith(": 1 panel, 2 curves\n"));
     CHECK_THAT(runs, Catch::Contains(">default<") && Catch::Contains(">fast<"));
 }

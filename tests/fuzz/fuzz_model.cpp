@@ -82,8 +82,7 @@ bool is_small(const Model& model)
 void decide(const Model& model)
 {
     if (!is_small(model)) return;
-    const ModelReport verified = verify(model, {}, 2, small_budget);
-    for (const Check& check : verified.structure.checks) require_confirmed(check);
+    const ModelReport verified = verify(model, {}, small_budget);
     if (written_mechanics(model) > longest_mechanics) return;
     for (const std::string& form : form_names()) accepted([&] { static_cast<void>(derive(form, model, verified)); });
 }

@@ -74,31 +74,6 @@ TEST_CASE("the costliest terms are those whose own operations weigh most")
     CHECK(costliest_terms(graph, outputs, 9).size() == 3);
 }
 
-TEST_CASE("a report is a table of operations with the costliest terms below it")
-{
-    SimplifyReport report;
-    report.written = {3, 4, 1, 0, 0, 12};
-    report.passes = {{"flattened, shared", "factor pairs shared", {3, 4, 1, 0, 0, 12}, {3, 2, 1, 0, 0, 10}},
-                     {to_text(Stage::lightest), "", {3, 4, 1, 0, 0, 12}, {3, 2, 1, 0, 0, 10}, Stage::lightest}};
-    report.kept = {3, 2, 1, 0, 0, 10};
-    report.costliest = {{"a/b", 5, 2}};
-    CHECK(to_text(report, "rhs") == "rhs\n"
-                                    "                                                                  + -      *      "
-                                    "/ functions solves   weight\n"
-                                    "  as written                                                        3      4      "
-                                    "1         0      0       12\n"
-                                    "  flattened, shared                                                 3      4      "
-                                    "1         0      0       12\n"
-                                    "    factor pairs shared                                             3      2      "
-                                    "1         0      0       10\n"
-                                    "  the lightest form that keeps its digits                           3      2      "
-                                    "1         0      0       10\n"
-                                    "  kept                                                              3      2      "
-                                    "1         0      0       10\n"
-                                    "  costliest terms: weight, uses, term\n"
-                                    "         5     2  a/b\n");
-}
-
 TEST_CASE("the terms of a product of sums are counted without multiplying it out")
 {
     Graph graph;

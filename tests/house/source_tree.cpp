@@ -101,10 +101,9 @@ const Arrows& planned_arrows()
         {"kernels", {"model", "mechanics", "verify"}},
         {"scene", {"model", "graph"}},
         {"pipeline", {"elaborate", "equations", "kernels", "advice", "scene", "emit"}},
-        {"stability", {"diagnostic", "runtime"}},
         {"linear", {}},
         {"methods", {"program"}},
-        {"commands", {"pipeline", "methods", "stability", "linear"}},
+        {"commands", {"pipeline", "methods", "linear"}},
         {"runtime", {}},
         {"program", {"runtime"}},
     };

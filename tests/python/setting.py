@@ -20,11 +20,6 @@ models = source / "models"
 all_tests = os.environ.get("LAGEN_ALL_TESTS") == "ON"
 
 
-def derive(path, **options):
-    """The text of the module of a model."""
-    return lagen.call("derive", path, format="sympy", **options)[0]
-
-
 def written(folder, name, text):
     """A file of the folder with this text."""
     path = pathlib.Path(folder) / name

@@ -112,7 +112,7 @@ class Results(unittest.TestCase):
         self.assertTrue(numpy.isnan(points["error"][1]))
         self.assertEqual(points["invariants"][0], {"energy": 1})
 
-    def test_equations_are_a_module_of_sympy(self):
+    def test_equations_are_expressions_of_sympy(self):
         module = lagen.equations(KEPLER, form="hamilton")
         self.assertIn("kinematics", module.equations)
         numpy.testing.assert_allclose(module.rhs(0, [3, 4, 1, 2], {"k": 5}), [1, 2, -0.12, -0.16], rtol=1e-14)

@@ -5,12 +5,14 @@
 #include "stability/polynomial.hpp"
 
 #include "lagen/integrate.hpp"
+#include "support/golden.hpp"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include <cmath>
 
-using lagen::linear_limits;
+using lagen::linear_limits_of;
 using lagen::no_limit;
 using namespace lagen::stability;
 
@@ -18,12 +20,36 @@ namespace {
 
 double imaginary(const char* type)
 {
-    return linear_limits(type).value().imaginary;
+    return linear_limits_of(type).value().imaginary;
 }
 
 double negative(const char* type)
 {
-    return linear_limits(type).value().real.value();
+    return linear_limits_of(type).value().real.value();
+}
+
+/// The table of the program.
+std::string table_text()
+{
+    const auto number = [](double x) { return x == no_limit ? "no_limit" : fmt::format("{}", x); };
+    std::string text = R"(// SPDX-License-Identifier: GPL-2.0-or-later
+/// The intervals of linear stability of every method and scheme. scripts/stability-table writes this file:
+/// tests/stability computes them exactly, from the coefficients that the runtime steps with, and rounds once.
+#pragma once
+
+#include "commands/scene/linear_limits.hpp"
+
+#include <array>
+
+namespace lagen {
+
+inline constexpr std::array linear_limits{
+)";
+    for (const lagen::LinearLimits& limits : lagen::computed_limits())
+        text += fmt::format("    LinearLimits{{\"{}\", {}, {}, {}, {}, {}}},\n", limits.of, number(limits.imaginary),
+                            limits.real ? number(*limits.real) : "std::nullopt", limits.calls, limits.a_stable,
+                            limits.l_stable);
+    return text + "};\n\n} // namespace lagen\n";
 }
 
 /// x'' = -omega^2 x.
@@ -109,10 +135,10 @@ TEST_CASE("intervals are those of the literature and of computations in quadrupl
     CHECK(imaginary("LeapfrogKdk") == Approx(2).epsilon(1e-15));
     CHECK(imaginary("Yoshida6") == Approx(2.2691).margin(1e-4));
     CHECK(imaginary("KahanLi8") == Approx(3.0965).margin(1e-4));
-    CHECK(linear_limits("KahanLi8")->calls == 17);
-    CHECK(linear_limits("Dopri5")->calls == 6);
-    CHECK_FALSE(linear_limits("Rkn86")->real);
-    CHECK_FALSE(linear_limits("Taylor"));
+    CHECK(linear_limits_of("KahanLi8")->calls == 17);
+    CHECK(linear_limits_of("Dopri5")->calls == 6);
+    CHECK_FALSE(linear_limits_of("Rkn86")->real);
+    CHECK_FALSE(linear_limits_of("Taylor"));
 }
 
 TEST_CASE("Taylor's method has the real interval of its order, and an imaginary one for half of the orders")
@@ -140,13 +166,13 @@ TEST_CASE("Taylor's method has the real interval of its order, and an imaginary 
 TEST_CASE("Gauss' methods are A-stable, Radau IIA is L-stable")
 {
     for (const char* type : {"Gauss2", "Gauss4", "Gauss6", "Gauss8", "Gauss12", "Gauss16"}) {
-        const auto limits = linear_limits(type).value();
+        const auto limits = linear_limits_of(type).value();
         CHECK(limits.imaginary == no_limit);
         CHECK(limits.real == no_limit);
         CHECK((limits.a_stable && !limits.l_stable));
     }
-    for (const char* type : {"Radau3Fixed", "Radau5Fixed", "Radau5"}) CHECK(linear_limits(type)->l_stable);
-    CHECK_FALSE(linear_limits("Rk4")->a_stable);
+    for (const char* type : {"Radau3Fixed", "Radau5Fixed", "Radau5"}) CHECK(linear_limits_of(type)->l_stable);
+    CHECK_FALSE(linear_limits_of("Rk4")->a_stable);
     CHECK(size_after_steps<lagen::Gauss8>(40) < 100); // |x| + |v|, where v is omega times as large
 }
 
@@ -166,4 +192,9 @@ TEST_CASE("steps of the runtime grow beyond the interval and not inside of it")
     check_by_steps<lagen::KahanLi8>("KahanLi8");
     check_by_steps<lagen::Sofroniou10>("Sofroniou10");
     CHECK(size_after_steps<lagen::Heun>(0.2) > 1e4);
+}
+
+TEST_CASE("the program's table of intervals is what the coefficients give")
+{
+    lagen::testing::check_text("generator/commands/scene/linear_limits_table.hpp", table_text());
 }

@@ -15,11 +15,11 @@ struct ModelReport : Report {
 };
 
 [[nodiscard]] inline ModelReport verify(const Model& model, const std::vector<NamedTree>& extra_invariants = {},
-                                        std::size_t points = 0, const ProofBudget& budget = {})
+                                        const ProofBudget& budget = {})
 {
     require_values(extra_invariants);
     const System system = elaborate(model);
-    ModelReport report{verify(system, extra_invariants, points, budget), system.written.algebroid};
+    ModelReport report{verify(system, extra_invariants, budget), system.written.algebroid};
     advise(system, report, budget);
     return report;
 }

@@ -4,7 +4,9 @@
 
 #include "elaborate/make_frame.hpp"
 #include "support/stages.hpp"
+#include "verify/proof_setting.hpp"
 
+#include <algorithm>
 #include <set>
 
 namespace lagen {
@@ -37,6 +39,21 @@ inline std::vector<std::string> hints_of(const Report& verified)
     for (const Check& check : verified.structure.checks)
         if (seen.insert(check.hint).second) hints.push_back(check.hint);
     return hints;
+}
+
+/// The largest certified bound of a residual of the structure equations, at `points` points other than those of a
+/// decision, by enclosures alone.
+inline double largest_structure_residual(const System& system, std::size_t points)
+{
+    Graph graph = system.graph;
+    ProofBudget other;
+    other.seed = 1;
+    const ZeroDecider decider(graph, proof_setting(graph, system), other);
+    BaseGradient partial(graph, system.algebroid.x);
+    double largest = 0;
+    for (const Residual& residual : structure_equations(partial, system.algebroid, system.functions).residuals)
+        largest = std::max(largest, decider.largest_bound(residual.value, points));
+    return largest;
 }
 
 } // namespace lagen

@@ -4,6 +4,7 @@
 #include "commands/chart/contestants.hpp"
 #include "commands/chart/problem.hpp"
 #include "commands/chart/stability_discrete.hpp"
+#include "commands/scene/linear_limits.hpp"
 #include "commands/scene/scene_options.hpp"
 #include "commands/scene/start_state.hpp"
 #include "emit/print_header.hpp"
@@ -11,7 +12,6 @@
 #include "linear/linear_system.hpp"
 #include "model/scene_form.hpp"
 #include "scene/sample_times.hpp"
-#include "stability/scheme_limits.hpp"
 
 #include <fmt/core.h>
 
@@ -150,11 +150,9 @@ void take_answer(std::string_view answer, StabilityChart& chart)
 /// Of x'' = -omega^2 x; the flows of a sum of flows are others.
 double limit_of(const MethodEntry& entry, const std::string& scheme, bool has_flows)
 {
-    if (entry.kind == MethodKind::discrete) {
-        const std::optional<LinearLimits> limits = scheme_limits(scheme);
-        return limits ? limits->imaginary : no_limit;
-    }
-    return entry.kind == MethodKind::splitting && has_flows ? no_limit : oscillation_limit(entry.type);
+    if (entry.kind == MethodKind::splitting && has_flows) return no_limit;
+    const LinearLimits* limits = find_limits(entry.kind == MethodKind::discrete ? scheme : entry.type);
+    return limits != nullptr ? limits->imaginary : no_limit;
 }
 
 /// Those of the linear interval, and the folds where they are met before.

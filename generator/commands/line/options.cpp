@@ -32,26 +32,12 @@ po::options_description describe(const CommandSyntax& syntax)
         if (entry.value == nullptr) {
             description.add_options()(entry.name, help.c_str());
         } else {
-            const std::string value = entry.bare != nullptr ? fmt::format("[={}]", entry.value) : entry.value;
-            description.add_options()(entry.name, po::value<std::vector<std::string>>()->value_name(value)->composing(),
-                                      help.c_str());
+            description.add_options()(
+                entry.name, po::value<std::vector<std::string>>()->value_name(entry.value)->composing(), help.c_str());
         }
     }
     description.add_options()("help,h", "print this text");
     return description;
-}
-
-/// "--name" of an option with a bare value as "--name=value": Boost's implicit values take the next word, which may be
-/// the model.
-std::vector<std::string> with_bare_values(const CommandSyntax& syntax, std::span<const std::string> arguments)
-{
-    std::vector<std::string> words(arguments.begin(), arguments.end());
-    const auto end = std::find(words.begin(), words.end(), "--");
-    for (const OptionEntry& entry : syntax.options)
-        if (entry.bare != nullptr)
-            std::replace(words.begin(), end, "--" + long_name(entry),
-                         fmt::format("--{}={}", long_name(entry), entry.bare));
-    return words;
 }
 
 void print_help(const CommandSyntax& syntax, const po::options_description& description)
@@ -100,11 +86,9 @@ Options::Options(const CommandSyntax& syntax, std::span<const std::string> argum
     po::variables_map map;
     try {
         const int style = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
-        const po::parsed_options parsed = po::command_line_parser(with_bare_values(syntax, arguments))
-                                              .options(everything)
-                                              .positional(order)
-                                              .style(style)
-                                              .run();
+        const std::vector<std::string> words(arguments.begin(), arguments.end());
+        const po::parsed_options parsed =
+            po::command_line_parser(words).options(everything).positional(order).style(style).run();
         for (const po::option& option : parsed.options)
             if (option.position_key < 0)
                 given_.emplace_back(option.string_key, option.value.empty() ? "" : option.value[0]);

@@ -26,7 +26,6 @@ struct OptionEntry {
     const char* value; ///< what its value is called in the help; nullptr: a flag
     const char* help;
     const char* standard = nullptr; ///< shown in the help and returned where the option is absent
-    const char* bare = nullptr;     ///< the value of "--name" alone; another is given as "--name=value"
 };
 
 struct CommandSyntax {

@@ -12,20 +12,20 @@ namespace lagen {
 
 namespace {
 
-Scene overlaid_scene(const Options& options, const Model& model, const Scene& first, const std::string& name)
+Scene overlaid_scene(const Options& options, const Model& model, const Scene& last, const std::string& name)
 {
     Scene scene = scene_of(options, model, options.named("initial"), name);
-    scene.plot = first.plot;
-    scene.observe = first.observe;
-    scene.states = first.states;
+    scene.plot = last.plot;
+    scene.observe = last.observe;
+    scene.states = last.states;
     return scene;
 }
 
 } // namespace
 
-OverlaidRun::OverlaidRun(const Options& options, const CheckedModel& checked, const Scene& first,
+OverlaidRun::OverlaidRun(const Options& options, const CheckedModel& checked, const Scene& last,
                          const std::string& name)
-    : OverlaidRun(options, checked, overlaid_scene(options, checked.model, first, name))
+    : OverlaidRun(options, checked, overlaid_scene(options, checked.model, last, name))
 {
 }
 
@@ -37,26 +37,25 @@ OverlaidRun::OverlaidRun(const Options& options, const CheckedModel& checked, co
     if (is_interrupted(outcome_)) throw InterruptedError("lagen: interrupted while drawing");
 }
 
-std::vector<std::string> overlaid_scenes(const Options& options, const Model& model, const Scene& first)
+std::vector<std::string> overlaid_scenes(const Options& options, const Model& model, const Scene& last)
 {
-    std::vector<std::string> names;
-    if (!options.has("overlay")) return names;
+    std::vector<std::string> names = options.all("scene");
+    if (names.size() < 2) return {};
     for (const char* word : {"accuracy", "bind", "branch", "variations", "jacobi-field"})
         if (options.has(word))
-            throw UsageError(fmt::format("lagen run: --{} is of one run, and --overlay draws several", word));
-    for (const std::string& text : options.all("overlay"))
-        for (const std::string& name : split_list(text)) {
-            if (name == first.name || std::ranges::find(names, name) != names.end())
-                throw UsageError(fmt::format("lagen run: --overlay names scene '{}', which is drawn already", name));
-            const Scene scene = scene_of(options, model, options.named("initial"), name);
-            if (scene.form != first.form)
-                throw UsageError(
-                    fmt::format("lagen run: --overlay draws runs of one form, and scene '{}' is run in the "
-                                "form '{}', scene '{}' in the form '{}'\nhint: --form {}",
-                                first.name, first.form, name, scene.form, first.form));
-            names.push_back(name);
-        }
-    if (names.empty()) throw UsageError("lagen run: --overlay needs the name of a scene");
+            throw UsageError(fmt::format("lagen run: --{} is of one run, and --scene names several", word));
+    if (!options.has("plot"))
+        throw UsageError("lagen run: several scenes are drawn into one picture: give --plot FILE.svg as well");
+    for (const std::string& name : names) {
+        if (std::ranges::count(names, name) > 1)
+            throw UsageError(fmt::format("lagen run: --scene names '{}' twice", name));
+        const Scene scene = scene_of(options, model, options.named("initial"), name);
+        if (scene.form != last.form)
+            throw UsageError(fmt::format("lagen run: a picture is of runs of one form, and scene '{}' is run in the "
+                                         "form '{}', scene '{}' in the form '{}'\nhint: --form {}",
+                                         last.name, last.form, scene.name, scene.form, last.form));
+    }
+    names.pop_back();
     return names;
 }
 

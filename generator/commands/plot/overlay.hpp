@@ -12,9 +12,9 @@ namespace lagen {
 
 class OverlaidRun {
   public:
-    /// Runs scene `name`, changed by the command line as the first one was. It has the columns and the picture of
-    /// `first`. Throws as SceneRun does.
-    OverlaidRun(const Options& options, const CheckedModel& checked, const Scene& first, const std::string& name);
+    /// Runs scene `name`, changed by the command line as the last one was. It has the columns and the picture of
+    /// `last`. Throws as SceneRun does.
+    OverlaidRun(const Options& options, const CheckedModel& checked, const Scene& last, const std::string& name);
 
     [[nodiscard]] const RunOutcome& outcome() const { return outcome_; }
     [[nodiscard]] PlottedRun plotted() const
@@ -30,8 +30,9 @@ class OverlaidRun {
     RunOutcome outcome_;
 };
 
-/// The scenes that --overlay names. UsageError beside options that are of one run, where one is named twice, and where
-/// one has another form than `first`; ModelError where there is no scene of that name. All of it before a long run.
-[[nodiscard]] std::vector<std::string> overlaid_scenes(const Options& options, const Model& model, const Scene& first);
+/// The scenes that --scene names before the last one. UsageError beside options that are of one run, without --plot,
+/// where one is named twice, and where one has another form than `last`; ModelError where there is no scene of that
+/// name. All of it before a long run.
+[[nodiscard]] std::vector<std::string> overlaid_scenes(const Options& options, const Model& model, const Scene& last);
 
 } // namespace lagen

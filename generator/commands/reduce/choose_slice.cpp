@@ -89,7 +89,7 @@ Slice choose_slice(Graph& graph, const CheckedModel& checked, const Infinitesima
     for (std::size_t i = 0; i < whole.n(); ++i)
         if (offers[0][i]) start.emplace_back(whole.algebroid.x[i], *offers[0][i]);
     std::optional<Slice> crossed, touched;
-    Judge judge(graph, proof_setting(graph, whole), 0, {});
+    Judge judge(graph, proof_setting(graph, whole), {});
     const auto vanishes = [&](NodeId f) { return judge.decide(f).status != ProofStatus::refuted; };
     for (const FixedNodes& values : offers)
         for (const std::vector<std::size_t>& choice : choices_of(size, whole.n())) {

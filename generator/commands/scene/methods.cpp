@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/scene/methods.hpp"
 
+#include "commands/scene/linear_limits_table.hpp"
+
 #include "commands/line/options.hpp"
 
 #include <fmt/core.h>
@@ -210,6 +212,12 @@ std::span<const std::string> method_names()
         return list;
     }();
     return names;
+}
+
+const LinearLimits* find_limits(std::string_view of)
+{
+    const auto found = std::ranges::find(linear_limits, of, &LinearLimits::of);
+    return found == linear_limits.end() ? nullptr : &*found;
 }
 
 } // namespace lagen

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// What `simplify` did, as a text: operations before and after every pass, and the terms that cost most.
+/// The names of the stages of `simplify`, and the terms that cost most.
 #include "graph/core/operators.hpp"
 #include "graph/core/schedule.hpp"
 #include "graph/simplify/simplify.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <functional>
@@ -13,17 +11,6 @@ namespace lagen {
 namespace {
 
 constexpr std::size_t longest_term = 90;
-
-std::string counts(const OperationCount& count)
-{
-    return fmt::format("{:>6} {:>6} {:>6} {:>9} {:>6} {:>8.0f}", count.additions, count.multiplications,
-                       count.divisions, count.functions, count.solves, count.weight);
-}
-
-std::string row(const std::string& text, const OperationCount& count)
-{
-    return fmt::format("  {:<60} {}\n", text, counts(count));
-}
 
 } // namespace
 
@@ -57,24 +44,6 @@ const char* to_text(Stage stage)
     case Stage::eliminated: return "solved through the terms of a Hessian";
     }
     return "";
-}
-
-std::string to_text(const SimplifyReport& report, const std::string& kernel)
-{
-    std::string text = fmt::format("{}\n  {:<60} {:>6} {:>6} {:>6} {:>9} {:>6} {:>8}\n", kernel, "", "+ -", "*", "/",
-                                   "functions", "solves", "weight");
-    text += row("as written", report.written);
-    std::string form;
-    for (const PassReport& pass : report.passes) {
-        if (pass.form != form && pass.stage == Stage::pass) text += row(pass.form, pass.before);
-        form = pass.form;
-        text += row(pass.stage != Stage::pass ? pass.form : "  " + pass.pass, pass.after);
-    }
-    text += row("kept", report.kept);
-    if (!report.costliest.empty()) text += "  costliest terms: weight, uses, term\n";
-    for (const CostlyTerm& term : report.costliest)
-        text += fmt::format("  {:>8.0f} {:>5}  {}\n", term.weight, term.uses, term.text);
-    return text;
 }
 
 } // namespace lagen

@@ -76,9 +76,6 @@ struct SimplifyReport {
 [[nodiscard]] std::vector<NodeId> simplify(Graph& graph, std::span<const NodeId> outputs, std::vector<NodeId>& divisors,
                                            SimplifyReport* report = nullptr);
 
-/// The report as a table of operations and weights, with the costliest terms below it. Lines end in a line feed.
-[[nodiscard]] std::string to_text(const SimplifyReport& report, const std::string& kernel);
-
 /// The `count` terms of the outputs that cost most.
 [[nodiscard]] std::vector<CostlyTerm> costliest_terms(const Graph& graph, std::span<const NodeId> outputs,
                                                       std::size_t count);

@@ -2,6 +2,7 @@
 #include "stability/linear_limits.hpp"
 
 #include "stability/one_step.hpp"
+#include "stability/scheme_limits.hpp"
 
 #include "lagen/dop853.hpp"
 #include "lagen/dopri5.hpp"
@@ -150,17 +151,11 @@ constexpr std::array known_methods{
 
 } // namespace
 
-std::optional<LinearLimits> linear_limits(const std::string& type)
+std::optional<LinearLimits> linear_limits_of(const std::string& type)
 {
     const auto found = std::ranges::find(known_methods, std::string_view(type), &KnownMethod::type);
     if (found == known_methods.end()) return std::nullopt;
     return found->limits();
-}
-
-double oscillation_limit(const std::string& type)
-{
-    const std::optional<LinearLimits> limits = linear_limits(type);
-    return limits.has_value() ? limits->imaginary : no_limit;
 }
 
 LinearLimits taylor_limits(std::size_t order)
@@ -168,6 +163,19 @@ LinearLimits taylor_limits(std::size_t order)
     Polynomial r{1};
     for (std::size_t k = 1; k <= order; ++k) r.push_back(r.back() / static_cast<unsigned long>(k));
     return polynomial_limits(r, static_cast<int>(order), 0);
+}
+
+std::vector<LinearLimits> computed_limits()
+{
+    std::vector<LinearLimits> all;
+    const auto add = [&](std::string_view of, const LinearLimits& limits) { all.emplace_back(limits).of = of; };
+    for (const KnownMethod& method : known_methods) add(method.type, method.limits());
+    add("taylor:4", taylor_limits(4));
+    add("taylor:10", taylor_limits(10));
+    add("taylor:20", taylor_limits(20));
+    add("taylor:30", taylor_limits(30));
+    for (const std::string_view scheme : scheme_names()) add(scheme, scheme_limits(std::string(scheme)).value());
+    return all;
 }
 
 } // namespace lagen

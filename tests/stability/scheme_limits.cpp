@@ -178,4 +178,11 @@ std::optional<LinearLimits> scheme_limits(const std::string& scheme)
     return std::nullopt;
 }
 
+std::vector<std::string_view> scheme_names()
+{
+    std::vector<std::string_view> names;
+    for (const GalerkinScheme& each : schemes()) names.push_back(each.name);
+    return names;
+}
+
 } // namespace lagen

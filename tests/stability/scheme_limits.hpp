@@ -14,4 +14,6 @@ namespace lagen {
 /// Nothing where there is no scheme of that name.
 [[nodiscard]] std::optional<LinearLimits> scheme_limits(const std::string& scheme);
 
+[[nodiscard]] std::vector<std::string_view> scheme_names();
+
 } // namespace lagen
