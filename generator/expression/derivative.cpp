@@ -3,6 +3,8 @@
 /// so plain recursion is safe.
 #include "expression/derivative.hpp"
 
+#include "expression/fold.hpp"
+
 #include <algorithm>
 #include <array>
 #include <set>
@@ -28,10 +30,8 @@ class HomogeneousDegrees {
 
     Degree of(const Tree& tree)
     {
-        if (const auto known = known_.find(tree.get()); known != known_.end()) return known->second;
-        std::vector<Degree> parts;
-        for (const Tree& argument : tree->arguments) parts.push_back(of(argument));
-        return known_.emplace(tree.get(), of_node(*tree, parts)).first->second;
+        return Fold<Degree>()(
+            tree, [this](const Tree& part, const std::vector<Degree>& parts) { return of_node(*part, parts); });
     }
 
   private:
@@ -66,7 +66,6 @@ class HomogeneousDegrees {
     }
 
     const std::set<std::string>& symbols_;
-    std::map<const TreeNode*, Degree> known_;
 };
 
 } // namespace

@@ -96,8 +96,7 @@ void imply_groupoid(ModelReader& reader)
 void refuse_parameters_of_step(const Model& model)
 {
     for (const Parameter& parameter : model.parameters) {
-        const std::vector<std::string> names = names_in(parameter.value);
-        if (std::ranges::find(names, model.discrete->step.name) == names.end()) continue;
+        if (!mentions(parameter.value, model.discrete->step.name)) continue;
         throw ModelError(
             fmt::format("the parameter '{}' is made of the step '{}', which no derivative by the step knows, "
                         "the energy -dL/dh least of all",

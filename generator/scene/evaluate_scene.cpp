@@ -31,9 +31,7 @@ std::string written(const Tree& tree)
 
 bool has_coordinate(const Model& model, const Tree& tree)
 {
-    const std::vector<std::string> names = names_in(tree);
-    const auto stands = [&](const Symbol& each) { return std::ranges::find(names, each.name) != names.end(); };
-    return std::ranges::any_of(model.base.coordinates, stands);
+    return std::ranges::any_of(model.base.coordinates, [&](const Symbol& x) { return mentions(tree, x.name); });
 }
 
 std::vector<NamedNumber> pick(const std::vector<Symbol>& symbols, const Values& values)

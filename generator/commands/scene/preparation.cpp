@@ -148,8 +148,7 @@ std::optional<Obstacle> obstacle_to_composition(const MethodEntry& method, const
     const std::string& scheme = checked.model.discrete->scheme;
     for (const char* name : {"energy", "lagrangian"})
         for (const NamedTree& column : scene.observe.value_or(std::vector<NamedTree>()))
-            if (const auto names = names_in(column.value);
-                column.name == name || std::ranges::find(names, name) != names.end())
+            if (column.name == name || mentions(column.value, name))
                 return Obstacle{fmt::format("{} composes steps, and the column '{}' is of the arrow of one step",
                                             method.name, column.name),
                                 "observe functions of positions and momenta"};

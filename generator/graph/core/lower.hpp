@@ -2,7 +2,7 @@
 /// Closed trees to graph nodes and back.
 #pragma once
 
-#include "expression/tree.hpp"
+#include "expression/fold.hpp"
 #include "graph/core/graph.hpp"
 
 #include <map>
@@ -22,8 +22,7 @@ class Lowering {
   private:
     Graph& graph_;
     Binding binding_;
-    std::map<const TreeNode*, NodeId> done_;
-    std::vector<Tree> alive_; ///< trees whose addresses are keys of done_
+    Fold<NodeId> nodes_;
 };
 
 /// A node as a tree (shared nodes become shared trees). Solve components are refused (InternalError).
