@@ -114,8 +114,8 @@ bool is_circular(const Tree& tree, const std::set<std::string>& names)
     });
 }
 
-/// Those of the definitions that are made of sines and cosines, the places of joints: written out, sin^2 + cos^2 and
-/// the addition theorems may leave less than their names do.
+/// The definitions that are made of sines and cosines, the places of joints: written out, sin^2 + cos^2 and the
+/// addition theorems may leave less than their names do.
 std::set<std::string> circular_definitions(const EquationSet& set, const Model& model)
 {
     std::set<std::string> definitions, circular;

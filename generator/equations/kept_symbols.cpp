@@ -170,7 +170,7 @@ const Tree& KeptSymbols::slope_of(std::size_t k, const GiNaC::ex& symbol)
     return slopes_.emplace(key, slope).first->second;
 }
 
-/// Whether the derivative is worth a symbol: of a family of variables all that are not zero are, or none.
+/// True of a derivative that is worth a symbol; in a family of variables all that are not zero are, or none.
 bool KeptSymbols::has_long_slope(std::size_t k, const GiNaC::ex& symbol)
 {
     const auto is_short = [&](const GiNaC::ex& variable) {

@@ -127,8 +127,8 @@ void SymbolicModel::lower_structure()
                     bracket_[(b * r() + a) * r() + c] = -bracket_[(a * r() + b) * r() + c];
 }
 
-/// Of an Atiyah algebroid, whose structure functions are elaborated without the definitions: of e_i = d/dx^i - A_i^c
-/// e_c, [e_i, e_j]^c = dA_i^c/dx^j - dA_j^c/dx^i + A_i^a A_j^b c^c_ab and [e_i, e_b]^c = -A_i^a c^c_ab.
+/// An Atiyah algebroid has its structure functions elaborated without the definitions. With e_i = d/dx^i - A_i^c e_c,
+/// [e_i, e_j]^c = dA_i^c/dx^j - dA_j^c/dx^i + A_i^a A_j^b c^c_ab and [e_i, e_b]^c = -A_i^a c^c_ab.
 void SymbolicModel::lower_curvature()
 {
     const AlgebroidBlock& block = model_.algebroid;
@@ -228,7 +228,7 @@ Sum SymbolicModel::bracket_terms(std::size_t a, const Sum& p, const Sum& y) cons
     return terms;
 }
 
-/// Those that are not the symbols y themselves, by the names of these.
+/// The velocities that are not the symbols y themselves, by the names of these.
 std::map<std::string, Tree> SymbolicModel::velocities(const Sum& y) const
 {
     std::map<std::string, Tree> inserted;

@@ -3,8 +3,6 @@
 /// so plain recursion is safe.
 #include "expression/derivative.hpp"
 
-#include "expression/fold.hpp"
-
 #include <algorithm>
 #include <array>
 #include <set>
@@ -91,14 +89,12 @@ bool is_rate_name(std::string_view name)
     return name.ends_with('\'');
 }
 
-const ClosedTree& Gradients::measured(const Tree& tree)
+ClosedTree Gradients::measured(const Tree& tree)
 {
-    if (const auto known = measured_.find(tree.get()); known != measured_.end()) return known->second;
-    maker_.count();
-    std::vector<Measure> sizes;
-    sizes.reserve(tree->arguments.size());
-    for (const Tree& argument : tree->arguments) sizes.push_back(measured(argument).measure);
-    return measured_.emplace(tree.get(), ClosedTree{tree, measure(*tree, sizes, closing_limits())}).first->second;
+    return {tree, measures_(tree, [this](const Tree& part, const std::vector<Measure>& sizes) {
+                maker_.count();
+                return measure(*part, sizes, closing_limits());
+            })};
 }
 
 const Gradients::Partials& Gradients::of(const Tree& tree)

@@ -101,7 +101,7 @@ void read_distribution(const ModelReader& reader, AlgebroidBlock& block, const A
 
 /// The entries of a table, and of the tables inside it, closed; `block` is their record.
 void read_entries(const ModelReader& reader, AlgebroidBlock& block, const AlgebroidDraft& draft);
-/// Whether a line of an anchor is by a base coordinate or a family of them, x = "..", and no table of a section.
+/// True where a line of an anchor is by a base coordinate or a family of them, x = "..", and no table of a section.
 [[nodiscard]] bool is_rate_line(const Model& model, const AlgebroidBlock& block, const TomlEntry& line);
 /// Its entries: rho^x_a is the coefficient of y^a. Throws ModelError where the expression is not linear.
 void read_rate_line(const ModelReader& reader, AlgebroidBlock& block, const TomlEntry& line);

@@ -76,7 +76,7 @@ std::vector<std::string> names_over(const ModelReader& reader, const Scope& scop
     return known;
 }
 
-/// What was meant, by the names that are legal here alone.
+/// The hint names what was meant, among the names that are legal here.
 [[noreturn]] void refuse_unknown(const UnknownSymbol& error, const ModelReader& reader, const Scope& scope,
                                  std::initializer_list<Role> roles)
 {

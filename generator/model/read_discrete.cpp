@@ -78,7 +78,7 @@ void declare_step(ModelReader& reader, DiscreteBlock& block, const TomlEntry& di
     if (known == nullptr || known->role != Role::parameter) reader.names.declare(name, Role::step, block.step.where);
 }
 
-/// Of a tangent bundle in its standard frame the groupoid is the pair groupoid.
+/// A tangent bundle in its standard frame has the pair groupoid.
 void imply_groupoid(ModelReader& reader)
 {
     Model& model = reader.model;

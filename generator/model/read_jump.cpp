@@ -32,7 +32,7 @@ bool stands_in(const std::vector<NamedTree>& jump, const std::vector<Symbol>& sy
                      entry.where(), hint_for(entry.name(), known, "coordinates"));
 }
 
-/// What nothing but the motion itself may change.
+/// Refuses a name that nothing but the motion itself may change.
 void require_free(const ModelReader& reader, const std::string& name, const TomlEntry& entry, const std::string& title)
 {
     for (const Tree& constraint : reader.model.base.constraints) {

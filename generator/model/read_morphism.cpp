@@ -25,7 +25,7 @@ constexpr int deepest_composition = 8;
 struct MapReader {
     const MorphismFile& morphism;
 
-    /// What values of one table may depend on.
+    /// The names that values of one table may depend on.
     struct Legal {
         Scope scope;
         std::set<std::string> names;

@@ -140,7 +140,7 @@ std::vector<Tree> read_inequalities(const ModelReader& reader, const Excerpt& te
     return inequalities;
 }
 
-/// Those of a level set, without repetitions.
+/// Keeps the constraints of a level set, without repetitions.
 void keep_constraints(Base& base, const std::vector<std::size_t>& places)
 {
     Base kept;

@@ -11,7 +11,7 @@ bool is_negative_number(const Tree& tree)
     return tree->kind == TreeKind::number && tree->number < 0;
 }
 
-/// What a tree divides by at its root, or null.
+/// The divisor at the root of a tree, or null.
 Tree divisor_of(const Tree& tree)
 {
     if (tree->kind == TreeKind::divide) return tree->arguments[1];

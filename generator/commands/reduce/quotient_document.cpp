@@ -130,7 +130,7 @@ bool QuotientDocument::is_in_names_of_whole(const Tree& tree) const
     return true;
 }
 
-/// Whether a function in the names of the whole is one on the quotient.
+/// True where a function in the names of the whole is one on the quotient.
 bool QuotientDocument::is_kept(const Tree& tree) const
 {
     return is_in_names_of_whole(tree) && reduction_.is_invariant(Lowering(reduction_.graph)(tree));
@@ -186,7 +186,7 @@ void QuotientDocument::drop_claims()
         if (!is_kept(each.value)) document_.drop("observables", each.name, fmt::format("the observable {}", each.name));
 }
 
-/// Whether the scene starts on the slice, with the start of the quotient in its table.
+/// True where the scene starts on the slice; the start of the quotient is put into its table.
 bool QuotientDocument::move_start(const Scene& scene, TomlValue& table) const
 {
     const Quotient& quotient = reduction_.quotient;
@@ -228,7 +228,7 @@ bool QuotientDocument::move_start(const Scene& scene, TomlValue& table) const
     return true;
 }
 
-/// Of what a scene shows the invariant columns are left; one that does not start on the slice is left out.
+/// A scene keeps its invariant columns; one that does not start on the slice is left out.
 void QuotientDocument::move_scenes()
 {
     std::vector<std::string> gone;

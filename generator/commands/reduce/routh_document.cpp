@@ -112,7 +112,7 @@ class RouthDocument {
         for (const std::size_t k : cyclic_) entry_in(states, coordinate(k)) = toml_string(velocity(k));
     }
 
-    /// What is about the whole model alone, and claims that rest on the coordinates.
+    /// Drops what is about the whole model alone, and claims that rest on the coordinates.
     void drop_claims()
     {
         document_.drop({"symmetries", "forms", "hamilton_jacobi"});

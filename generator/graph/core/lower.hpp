@@ -9,7 +9,7 @@
 
 namespace lagen {
 
-/// What names stand for while lowering. A name that is absent becomes (or is) the graph input of that name.
+/// The nodes that names stand for while lowering. A name that is absent becomes (or is) the graph input of that name.
 using Binding = std::map<std::string, NodeId>;
 
 /// Memoised by tree address, so shared definitions are lowered once.
