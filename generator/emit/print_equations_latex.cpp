@@ -3,6 +3,7 @@
 #include "emit/print_equations.hpp"
 #include "emit/print_equations_terms.hpp"
 #include "emit/text_block.hpp"
+#include "expression/alphabet.hpp"
 #include "notation/latex_names.hpp"
 
 #include <algorithm>
@@ -223,7 +224,7 @@ class WidthMeter {
         case '=': return 12;
         case '(':
         case ')': return 4;
-        default: return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U ? 0 : 6; // of UTF-8 the first byte only
+        default: return begins_character(c) ? 6 : 0;
         }
     }
 

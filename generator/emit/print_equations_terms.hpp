@@ -62,7 +62,4 @@ struct WhereItem {
 };
 [[nodiscard]] std::vector<WhereItem> where_items(const EquationSet& equations);
 
-/// Columns of a UTF-8 text on a terminal: code points, combining marks not counted.
-[[nodiscard]] std::size_t columns_of(std::string_view text);
-
 } // namespace lagen

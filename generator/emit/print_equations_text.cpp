@@ -4,7 +4,7 @@
 #include "emit/print_equations.hpp"
 #include "emit/print_equations_terms.hpp"
 #include "emit/text_block.hpp"
-#include "expression/letters.hpp"
+#include "expression/alphabet.hpp"
 
 #include <fmt/core.h>
 
@@ -24,23 +24,6 @@ struct TextPiece {
     std::string text;
     TextHold hold;
 };
-
-std::string raised_digits(const std::string& digits)
-{
-    static constexpr const char* raised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-    std::string text;
-    for (const char c : digits) text += c == '-' ? "⁻" : raised[c - '0'];
-    return text;
-}
-
-/// c₂; what is no digit stays.
-std::string lowered_digits(const std::string& digits)
-{
-    static constexpr const char* lowered[] = {"₀", "₁", "₂", "₃", "₄", "₅", "₆", "₇", "₈", "₉"};
-    std::string text;
-    for (const char c : digits) text += c >= '0' && c <= '9' ? lowered[c - '0'] : std::string(1, c);
-    return text;
-}
 
 std::string dotted(const std::string& name);
 

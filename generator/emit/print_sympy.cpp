@@ -7,6 +7,7 @@
 #include "emit/sympy_program.hpp"
 #include "emit/sympy_writer.hpp"
 #include "emit/text_block.hpp"
+#include "expression/alphabet.hpp"
 
 #include <fmt/format.h>
 
