@@ -64,8 +64,16 @@ std::vector<SignedTree> right_side_terms(const Equation& equation)
     return terms;
 }
 
-std::vector<std::string> wrap_terms(const std::vector<std::pair<bool, std::string>>& terms, std::size_t first,
-                                    std::size_t later, std::size_t width, std::size_t (*measure)(std::string_view))
+std::string one_line(const SignedTexts& terms)
+{
+    std::string text;
+    for (const auto& [negative, term] : terms)
+        text += (text.empty() ? (negative ? "-" : "") : (negative ? " - " : " + ")) + term;
+    return text;
+}
+
+std::vector<std::string> wrap_terms(const SignedTexts& terms, std::size_t first, std::size_t later, std::size_t width,
+                                    std::size_t (*measure)(std::string_view))
 {
     std::vector<std::string> lines(1);
     std::size_t used = first;

@@ -19,7 +19,6 @@ namespace {
 
 constexpr std::size_t sympy_width = 120;
 
-using SignedTexts = std::vector<std::pair<bool, std::string>>; ///< whether each is negative, and its text
 using Texts = std::vector<std::string>;
 
 /// The terms with their signs, on lines of `width` columns: the first begins at column `first`, others at `margin`.
@@ -29,11 +28,6 @@ std::string sum_of(const SignedTexts& terms, std::size_t first, std::size_t marg
     for (const std::string& line : wrap_terms(terms, first, margin, width, columns_of))
         text += (text.empty() ? "" : "\n" + std::string(margin, ' ')) + line;
     return text;
-}
-
-std::string one_line(const SignedTexts& terms)
-{
-    return sum_of(terms, 0, 0, std::string::npos);
 }
 
 Tree sum_of_groups(const Equation& equation)
