@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "emit/identifiers.hpp"
 
+#include "diagnostic.hpp"
+#include "expression/alphabet.hpp"
+
 #include <fmt/format.h>
 
 #include <set>
@@ -9,51 +12,26 @@ namespace lagen {
 
 namespace {
 
-constexpr std::string_view greek_small[] = {
-    "alpha", "beta",   "gamma",   "delta", "epsilon", "zeta",    "eta",   "theta", "iota",
-    "kappa", "lambda", "mu",      "nu",    "xi",      "omicron", "pi",    "rho",   "sigma",
-    "sigma", "tau",    "upsilon", "phi",   "chi",     "psi",     "omega",
-};
-
-/// U+03B1..U+03C9 and U+0391..U+03A9 by name, everything else as uXXXX.
-std::string transliterate(char32_t c)
-{
-    if (c >= 0x3b1 && c <= 0x3c9) return std::string(greek_small[c - 0x3b1]);
-    if (c >= 0x391 && c <= 0x3a9) {
-        std::string name(greek_small[c - 0x391]);
-        name[0] = static_cast<char>(name[0] - 'a' + 'A');
-        return name;
-    }
-    return fmt::format("u{:04X}", static_cast<std::uint32_t>(c));
-}
-
-/// The code point that starts at `at`, which moves behind it; a broken byte stands for itself.
-char32_t next_code_point(std::string_view text, std::size_t& at)
-{
-    const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0U; };
-    const unsigned lead = byte(at);
-    const std::size_t length = lead < 0x80U ? 1 : lead >= 0xf0U ? 4 : lead >= 0xe0U ? 3 : lead >= 0xc0U ? 2 : 1;
-    char32_t value = length == 1 ? lead : lead & (0xffU >> (length + 1));
-    for (std::size_t k = 1; k < length; ++k) value = (value << 6U) | (byte(at + k) & 0x3fU);
-    at += length;
-    return value;
-}
-
-/// Letters, digits and '_' kept; "x[1]" becomes x_1; a leading digit and an empty name gain a '_' in front.
-/// Two underscores in a row are reserved in C++, so runs of them become one.
+/// Letters of ASCII, digits and '_' are kept, Greek is spelled, everything else is uXXXX; "x[1]" becomes x_1; a leading
+/// digit and an empty name gain an 'n' in front. Two underscores in a row are reserved in C++, so runs of them become
+/// one.
 std::string spell(std::string_view name)
 {
     std::string result;
     for (std::size_t at = 0; at < name.size();) {
-        const char32_t c = next_code_point(name, at);
-        const bool kept = c == '_' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+        const char c = name[at];
+        const GreekLetter* greek = greek_letter_at(name, at);
+        const CodePoint point = decode_utf8(name, at);
         std::string piece;
-        if (kept)
-            piece = static_cast<char>(c);
+        if (c == '_' || is_digit(point.value) || (point.value < 0x80 && is_letter(point.value)))
+            piece = c;
         else if (c == '[' || c == ',')
             piece = "_";
+        else if (greek != nullptr && !greek->name.empty())
+            piece = greek->name;
         else if (c != ']' && c != ' ')
-            piece = transliterate(c);
+            piece = fmt::format("u{:04X}", static_cast<std::uint32_t>(point.value));
+        at += std::max<std::size_t>(point.length, 1);
         if (piece == "_" && !result.empty() && result.back() == '_') continue;
         result += piece;
     }

@@ -2,6 +2,8 @@
 /// Terms of a right side, and their lines.
 #include "emit/print_equations_terms.hpp"
 
+#include "expression/alphabet.hpp"
+
 #include <algorithm>
 
 namespace lagen {
@@ -62,8 +64,16 @@ std::vector<SignedTree> right_side_terms(const Equation& equation)
     return terms;
 }
 
-std::vector<std::string> wrap_terms(const std::vector<std::pair<bool, std::string>>& terms, std::size_t first,
-                                    std::size_t later, std::size_t width, std::size_t (*measure)(std::string_view))
+std::string one_line(const SignedTexts& terms)
+{
+    std::string text;
+    for (const auto& [negative, term] : terms)
+        text += (text.empty() ? (negative ? "-" : "") : (negative ? " - " : " + ")) + term;
+    return text;
+}
+
+std::vector<std::string> wrap_terms(const SignedTexts& terms, std::size_t first, std::size_t later, std::size_t width,
+                                    std::size_t (*measure)(std::string_view))
 {
     std::vector<std::string> lines(1);
     std::size_t used = first;
@@ -89,7 +99,7 @@ std::size_t best_break(const std::string& line, std::size_t width)
 {
     std::size_t best = 0, columns = 0, depth = 0, best_depth = 0;
     for (std::size_t k = 0; k < line.size(); ++k) {
-        if ((static_cast<unsigned char>(line[k]) & 0xC0U) != 0x80U) ++columns; // a combining mark too: no line is wider
+        if (begins_character(line[k])) ++columns; // a combining mark too: no line is wider
         if (columns > width) break;
         if (line[k] == '(' || line[k] == '[') ++depth;
         if ((line[k] == ')' || line[k] == ']') && depth > 0) --depth;
@@ -169,19 +179,6 @@ std::vector<WhereItem> where_items(const EquationSet& equations)
         if (whole) k += size - 1;
     }
     return items;
-}
-
-std::size_t columns_of(std::string_view text)
-{
-    std::size_t columns = 0;
-    for (std::size_t k = 0; k < text.size(); ++k) {
-        const auto byte = static_cast<unsigned char>(text[k]);
-        const auto next = static_cast<unsigned char>(k + 1 < text.size() ? text[k + 1] : 0);
-        const bool continuation = (byte & 0xC0U) == 0x80U;
-        const bool combining = byte == 0xCC || (byte == 0xCD && next < 0xB0); // U+0300 .. U+036F
-        if (!continuation && !combining) ++columns;
-    }
-    return columns;
 }
 
 } // namespace lagen

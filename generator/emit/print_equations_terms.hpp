@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// What the printers of equations share: the right side as signed terms, and lines of them.
+/// The right side of an equation as signed terms, and lines of them.
 #pragma once
 
 #include "notation/equation_set.hpp"
@@ -14,19 +14,21 @@ struct SignedTree {
     std::vector<std::string> basis = {}; ///< of a wedge product of basis forms behind it
 };
 
+using SignedTexts = std::vector<std::pair<bool, std::string>>; ///< true of a negative term, and its text
+
 /// All groups as one list of terms in their order, except that a positive term leads where there is one.
 [[nodiscard]] std::vector<SignedTree> right_side_terms(const Equation& equation);
 
-/// Whether the tree is the number 1, which is not written before a basis form or an unknown.
+/// True of the number 1, which is not written before a basis form or an unknown.
 [[nodiscard]] bool is_one(const Tree& tree);
 
 /// A coefficient of the left side without its sign.
 [[nodiscard]] SignedTree without_sign(const Tree& tree);
 
-/// Whether the tree is a x b or a . b of written equations.
+/// True of a x b or a . b of written equations.
 [[nodiscard]] bool is_vector_product(const Tree& tree);
 
-/// Whether the tree is a sum over an index of written equations.
+/// True of a sum over an index of written equations.
 [[nodiscard]] bool is_indexed_sum(const Tree& tree);
 
 /// The equations as text and LaTeX show them.
@@ -36,11 +38,13 @@ struct SignedTree {
 /// exponent of 2 or more (sin^-1 would read as the inverse).
 [[nodiscard]] bool raised_by_name(const Tree& tree);
 
+/// The terms with their signs on one line.
+[[nodiscard]] std::string one_line(const SignedTexts& terms);
+
 /// Lines of " + term" and " - term" pieces, broken before a sign where a line would exceed `width` columns. `first` and
 /// `later` are the widths that stand before the first and the following lines; `measure` is the width of a piece.
-[[nodiscard]] std::vector<std::string> wrap_terms(const std::vector<std::pair<bool, std::string>>& terms,
-                                                  std::size_t first, std::size_t later, std::size_t width,
-                                                  std::size_t (*measure)(std::string_view));
+[[nodiscard]] std::vector<std::string> wrap_terms(const SignedTexts& terms, std::size_t first, std::size_t later,
+                                                  std::size_t width, std::size_t (*measure)(std::string_view));
 
 /// The lines, those that are too wide broken before an inner sign, else between factors, in as few parentheses as can
 /// be.
@@ -52,7 +56,7 @@ struct SignedTree {
                                                     const char* close, std::size_t first, std::size_t later,
                                                     std::size_t width, std::size_t (*measure)(std::string_view));
 
-/// What symbols stand for, as one list for the printers: a vector whose entries all stand one after the other is one
+/// A symbol with all that it stands for, for the printers: a vector whose entries all stand one after the other is one
 /// item with several values.
 struct WhereItem {
     std::string symbol;
@@ -61,8 +65,5 @@ struct WhereItem {
     std::vector<IndexRange> ranges = {};
 };
 [[nodiscard]] std::vector<WhereItem> where_items(const EquationSet& equations);
-
-/// Columns of a UTF-8 text on a terminal: code points, combining marks not counted.
-[[nodiscard]] std::size_t columns_of(std::string_view text);
 
 } // namespace lagen

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "emit/print_literal.hpp"
 
+#include "expression/alphabet.hpp"
+
 #include <fmt/format.h>
 #include <mpfr.h>
 
@@ -87,13 +89,8 @@ std::string plain_text(std::string_view text)
 
 std::string comment_text(std::string_view text)
 {
-    std::string result = plain_text(text.substr(0, 200));
-    if (text.size() > 200) { // not in the middle of a character
-        while (!result.empty() && (static_cast<unsigned char>(result.back()) & 0xc0U) == 0x80U) result.pop_back();
-        if (!result.empty() && static_cast<unsigned char>(result.back()) >= 0xc0U) result.pop_back();
-        result += "...";
-    }
-    return result;
+    constexpr std::size_t longest = 200; // bytes
+    return plain_text(whole_characters(text, longest)) + (text.size() > longest ? "..." : "");
 }
 
 std::string string_literal(std::string_view text)

@@ -2,10 +2,12 @@
 /// Uses of names are counted in what was derived with them.
 #include "equations/definition_choice.hpp"
 
-#include "equations/rewrite_tree.hpp"
+#include "expression/find_part.hpp"
+#include "expression/fold.hpp"
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <optional>
 
 namespace lagen {
@@ -17,15 +19,9 @@ constexpr std::size_t most_nodes = 5000; ///< of a tree that are counted
 
 std::size_t written_nodes(const Tree& tree)
 {
-    std::size_t count = 0;
-    std::vector<const TreeNode*> pending{tree.get()};
-    while (!pending.empty() && count < most_nodes) {
-        const TreeNode* node = pending.back();
-        pending.pop_back();
-        ++count;
-        for (const Tree& argument : node->arguments) pending.push_back(argument.get());
-    }
-    return count;
+    return Fold<std::size_t>()(tree, [](const Tree&, const std::vector<std::size_t>& counts) {
+        return std::min(std::accumulate(counts.begin(), counts.end(), std::size_t{1}), most_nodes);
+    });
 }
 
 void for_each_tree(const EquationBlock& block, const std::function<void(const Tree&)>& visit)
@@ -109,20 +105,17 @@ EquationSet with_symbols(const std::function<EquationSet(const DefinitionChoice&
     }
 }
 
-/// Whether it has a sine or a cosine, or one of the names.
+/// True where it has a sine or a cosine, or one of the names.
 bool is_circular(const Tree& tree, const std::set<std::string>& names)
 {
-    bool found = false;
-    (void)rewrite_tree(tree, [&](const Tree& node) {
-        found = found || (node->kind == TreeKind::name && names.contains(stem_of(node->name))) ||
-                (node->kind == TreeKind::call && (node->function == Function::sin || node->function == Function::cos));
-        return Tree{};
+    return any_part(tree, [&](const Tree& part) {
+        return (part->kind == TreeKind::name && names.contains(stem_of(part->name))) ||
+               (part->kind == TreeKind::call && (part->function == Function::sin || part->function == Function::cos));
     });
-    return found;
 }
 
-/// Those of the definitions that are made of sines and cosines, the places of joints: written out, sin^2 + cos^2 and
-/// the addition theorems may leave less than their names do.
+/// The definitions that are made of sines and cosines, the places of joints: written out, sin^2 + cos^2 and the
+/// addition theorems may leave less than their names do.
 std::set<std::string> circular_definitions(const EquationSet& set, const Model& model)
 {
     std::set<std::string> definitions, circular;

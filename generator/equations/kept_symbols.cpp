@@ -2,7 +2,8 @@
 /// Names for trees, the chain rule over them, and the list of what they stand for.
 #include "equations/kept_symbols.hpp"
 
-#include "equations/rewrite_tree.hpp"
+#include "expression/find_part.hpp"
+#include "expression/rewrite.hpp"
 #include "notation/latex_names.hpp"
 #include "symbolic/shortest_form.hpp"
 
@@ -35,12 +36,7 @@ constexpr std::size_t most_derivatives = 40; ///< with names: more take long, an
 
 bool is_smooth(const Tree& tree)
 {
-    bool smooth = true;
-    (void)rewrite_tree(tree, [&](const Tree& node) {
-        if (is_rough(*node)) smooth = false;
-        return Tree{};
-    });
-    return smooth;
+    return !any_part(tree, [](const Tree& part) { return is_rough(*part); });
 }
 
 /// Names that no definition on points of the base depends on.
@@ -58,7 +54,7 @@ std::set<std::string> moving_names(const Model& model)
 
 bool holds_any(const Tree& tree, const std::set<std::string>& names)
 {
-    return std::ranges::any_of(names_in(tree), [&](const std::string& each) { return names.contains(each); });
+    return find_name({tree}, [&](const std::string& each) { return names.contains(each); }) != nullptr;
 }
 
 void insert_behind(std::vector<std::string>& list, const std::string& behind, const std::string& name)
@@ -128,15 +124,14 @@ Tree KeptSymbols::name_of(const Tree& tree, std::optional<std::size_t> own)
 Tree KeptSymbols::folded(const Tree& tree)
 {
     if (by_tree_.empty()) return tree;
-    return rewrite_tree(tree, [&](const Tree& node) { return name_of(node, {}); });
+    return rewrite(tree, [&](const Tree& node) { return name_of(node, {}); });
 }
 
 GiNaC::ex KeptSymbols::value_of(std::size_t k)
 {
     if (!kept_[k].value) {
         const Tree root = kept_[k].tree;
-        const Tree inner =
-            rewrite_tree(root, [&](const Tree& node) { return node == root ? Tree{} : name_of(node, k); });
+        const Tree inner = rewrite(root, [&](const Tree& node) { return node == root ? Tree{} : name_of(node, k); });
         kept_[k].value = to_ginac(inner, symbols_);
     }
     return *kept_[k].value;
@@ -175,7 +170,7 @@ const Tree& KeptSymbols::slope_of(std::size_t k, const GiNaC::ex& symbol)
     return slopes_.emplace(key, slope).first->second;
 }
 
-/// Whether the derivative is worth a symbol: of a family of variables all that are not zero are, or none.
+/// True of a derivative that is worth a symbol; in a family of variables all that are not zero are, or none.
 bool KeptSymbols::has_long_slope(std::size_t k, const GiNaC::ex& symbol)
 {
     const auto is_short = [&](const GiNaC::ex& variable) {

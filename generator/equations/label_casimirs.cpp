@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "equations/label_casimirs.hpp"
 
-#include "equations/rewrite_tree.hpp"
+#include "expression/rewrite.hpp"
 
 namespace lagen {
 namespace {
@@ -19,7 +19,7 @@ bool is_expansion(const Tree& tree, const Tree& value)
 
 Tree label_casimirs(const Tree& tree, const std::vector<NamedTree>& casimirs)
 {
-    return rewrite_tree(tree, [&](const Tree& node) {
+    return rewrite(tree, [&](const Tree& node) {
         Tree label;
         for (const NamedTree& casimir : casimirs)
             if (is_expansion(node, casimir.value)) label = name(casimir.name, node->where);

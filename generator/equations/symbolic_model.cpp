@@ -2,7 +2,7 @@
 #include "equations/symbolic_model.hpp"
 
 #include "activity.hpp"
-#include "equations/rewrite_tree.hpp"
+#include "expression/rewrite.hpp"
 #include "model/total_cost.hpp"
 #include "notation/latex_names.hpp"
 
@@ -127,8 +127,8 @@ void SymbolicModel::lower_structure()
                     bracket_[(b * r() + a) * r() + c] = -bracket_[(a * r() + b) * r() + c];
 }
 
-/// Of an Atiyah algebroid, whose structure functions are elaborated without the definitions: of e_i = d/dx^i - A_i^c
-/// e_c, [e_i, e_j]^c = dA_i^c/dx^j - dA_j^c/dx^i + A_i^a A_j^b c^c_ab and [e_i, e_b]^c = -A_i^a c^c_ab.
+/// An Atiyah algebroid has its structure functions elaborated without the definitions. With e_i = d/dx^i - A_i^c e_c,
+/// [e_i, e_j]^c = dA_i^c/dx^j - dA_j^c/dx^i + A_i^a A_j^b c^c_ab and [e_i, e_b]^c = -A_i^a c^c_ab.
 void SymbolicModel::lower_curvature()
 {
     const AlgebroidBlock& block = model_.algebroid;
@@ -170,10 +170,8 @@ void SymbolicModel::take_labels(const std::vector<Tree>& functions)
         if (zero) constant.push_back(casimir);
     }
     for (const NamedTree& casimir : constant) {
-        const bool used = std::any_of(functions.begin(), functions.end(), [&](const Tree& function) {
-            if (function == nullptr) return false;
-            const std::vector<std::string> names = names_in(label_casimirs(function, constant));
-            return std::find(names.begin(), names.end(), casimir.name) != names.end();
+        const bool used = std::ranges::any_of(functions, [&](const Tree& function) {
+            return function != nullptr && mentions(label_casimirs(function, constant), casimir.name);
         });
         if (used) labels_.push_back(casimir);
     }
@@ -187,24 +185,19 @@ GiNaC::ex SymbolicModel::lower(const Tree& tree)
 /// What is not smooth stands for itself: it is not differentiated, and comes back as it is written.
 GiNaC::ex SymbolicModel::lower_rough(const Tree& tree)
 {
-    return to_ginac(rewrite_tree(kept_->folded(label_casimirs(tree, labels_)),
-                                 [&](const Tree& node) {
-                                     if (!is_rough(*node)) return Tree{};
-                                     const std::string text = to_text(node);
-                                     rough_.emplace(text, node);
-                                     return name(text);
-                                 }),
+    return to_ginac(rewrite(kept_->folded(label_casimirs(tree, labels_)),
+                            [&](const Tree& node) {
+                                if (!is_rough(*node)) return Tree{};
+                                const std::string text = to_text(node);
+                                rough_.emplace(text, node);
+                                return name(text);
+                            }),
                     symbols_);
 }
 
 Tree SymbolicModel::shortest(const GiNaC::ex& e) const
 {
-    const Tree tree = shortest_form(e, symbols_, order_);
-    if (rough_.empty()) return tree;
-    return rewrite_tree(tree, [&](const Tree& node) {
-        const auto known = node->kind == TreeKind::name ? rough_.find(node->name) : rough_.end();
-        return known != rough_.end() ? known->second : Tree{};
-    });
+    return replace_names(shortest_form(e, symbols_, order_), rough_);
 }
 
 GiNaC::ex SymbolicModel::simpler(const GiNaC::ex& e)
@@ -235,7 +228,7 @@ Sum SymbolicModel::bracket_terms(std::size_t a, const Sum& p, const Sum& y) cons
     return terms;
 }
 
-/// Those that are not the symbols y themselves, by the names of these.
+/// The velocities that are not the symbols y themselves, by the names of these.
 std::map<std::string, Tree> SymbolicModel::velocities(const Sum& y) const
 {
     std::map<std::string, Tree> inserted;
@@ -246,10 +239,7 @@ std::map<std::string, Tree> SymbolicModel::velocities(const Sum& y) const
 
 GiNaC::ex SymbolicModel::lower_at(const Tree& tree, const std::map<std::string, Tree>& velocities)
 {
-    return lower_rough(rewrite_tree(tree, [&](const Tree& node) {
-        const auto known = node->kind == TreeKind::name ? velocities.find(node->name) : velocities.end();
-        return known != velocities.end() ? known->second : Tree{};
-    }));
+    return lower_rough(replace_names(tree, velocities));
 }
 
 EquationBlock SymbolicModel::states(const Sum& y)

@@ -28,10 +28,8 @@ class HomogeneousDegrees {
 
     Degree of(const Tree& tree)
     {
-        if (const auto known = known_.find(tree.get()); known != known_.end()) return known->second;
-        std::vector<Degree> parts;
-        for (const Tree& argument : tree->arguments) parts.push_back(of(argument));
-        return known_.emplace(tree.get(), of_node(*tree, parts)).first->second;
+        return Fold<Degree>()(
+            tree, [this](const Tree& part, const std::vector<Degree>& parts) { return of_node(*part, parts); });
     }
 
   private:
@@ -66,7 +64,6 @@ class HomogeneousDegrees {
     }
 
     const std::set<std::string>& symbols_;
-    std::map<const TreeNode*, Degree> known_;
 };
 
 } // namespace
@@ -92,14 +89,12 @@ bool is_rate_name(std::string_view name)
     return name.ends_with('\'');
 }
 
-const ClosedTree& Gradients::measured(const Tree& tree)
+ClosedTree Gradients::measured(const Tree& tree)
 {
-    if (const auto known = measured_.find(tree.get()); known != measured_.end()) return known->second;
-    maker_.count();
-    std::vector<Measure> sizes;
-    sizes.reserve(tree->arguments.size());
-    for (const Tree& argument : tree->arguments) sizes.push_back(measured(argument).measure);
-    return measured_.emplace(tree.get(), ClosedTree{tree, measure(*tree, sizes, closing_limits())}).first->second;
+    return {tree, measures_(tree, [this](const Tree& part, const std::vector<Measure>& sizes) {
+                maker_.count();
+                return measure(*part, sizes, closing_limits());
+            })};
 }
 
 const Gradients::Partials& Gradients::of(const Tree& tree)

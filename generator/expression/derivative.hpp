@@ -3,6 +3,7 @@
 #pragma once
 
 #include "expression/closed.hpp"
+#include "expression/fold.hpp"
 
 #include <functional>
 #include <unordered_map>
@@ -36,7 +37,7 @@ class Gradients {
   public:
     /// By the number of a symbol in the order of first sight.
     using Partials = std::map<std::size_t, ClosedTree>;
-    /// Whether derivatives by this name are asked for.
+    /// True of names by which derivatives are asked for.
     using IsWanted = std::function<bool(const TreeNode&)>;
 
     Gradients(const Maker& maker, IsWanted is_wanted) : maker_(maker), is_wanted_(std::move(is_wanted)) {}
@@ -44,9 +45,9 @@ class Gradients {
     /// Throws ModelError: a bound of expansion is exceeded; stumpff(31, z) or stumpff(32, z).
     const Partials& of(const Tree& tree);
     /// The tree with its size.
-    const ClosedTree& measured(const Tree& tree);
+    ClosedTree measured(const Tree& tree);
 
-    /// Those that were wanted, in the order of first sight.
+    /// The symbols that were wanted, in the order of first sight.
     [[nodiscard]] const std::vector<std::string>& symbols() const { return symbols_; }
 
   private:
@@ -55,8 +56,8 @@ class Gradients {
     const Maker& maker_;
     IsWanted is_wanted_;
     std::vector<std::string> symbols_;
-    std::unordered_map<const TreeNode*, Partials> partials_;   ///< by address; looked up, never iterated
-    std::unordered_map<const TreeNode*, ClosedTree> measured_; ///< likewise; keeps the addresses its own
+    std::unordered_map<const TreeNode*, Partials> partials_; ///< by address; looked up, never iterated
+    Fold<Measure> measures_;                                 ///< keeps the addresses its own
 };
 
 /// d node / ds from the arguments of the node and their derivatives, null where they are zero; not all of them are.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Closing trees: names to symbols, definitions to their closed bodies, within bounds.
+#include "expression/alphabet.hpp"
 #include "expression/closing.hpp"
-#include "expression/letters.hpp"
 #include "expression/name_hints.hpp"
 
 #include <fmt/format.h>

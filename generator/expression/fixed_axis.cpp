@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "expression/fixed_axis.hpp"
 
-#include <unordered_map>
+#include "expression/fold.hpp"
 
 namespace lagen {
 
@@ -86,13 +86,12 @@ class ProductReader {
 
     const Measure& measured(const Tree& tree)
     {
-        if (const auto known = measures_.find(tree.get()); known != measures_.end()) return known->second;
-        std::vector<Measure> sizes;
-        for (const Tree& argument : tree->arguments) sizes.push_back(measured(argument));
-        return measures_.emplace(tree.get(), measure(*tree, sizes, closing_limits())).first->second;
+        return measures_(tree, [](const Tree& part, const std::vector<Measure>& sizes) {
+            return measure(*part, sizes, closing_limits());
+        });
     }
 
-    std::unordered_map<const TreeNode*, Measure> measures_; ///< looked up, never iterated
+    Fold<Measure> measures_;
 };
 
 ClosedTree joined(const Maker& maker, const Product& product)

@@ -2,7 +2,7 @@
 /// Tokens of the expression language, exact numbers, and the hints for characters that look like an operator.
 #include "expression/lex.hpp"
 
-#include "expression/letters.hpp"
+#include "expression/alphabet.hpp"
 
 #include <fmt/format.h>
 
@@ -40,7 +40,7 @@ struct LookAlike {
     const char* hint;
 };
 
-/// What people write instead of the language's own signs.
+/// Signs that people write instead of the language's own.
 constexpr std::array look_alikes{
     LookAlike{"−", "the minus sign is written '-'"},
     LookAlike{"–", "the minus sign is written '-'"},
@@ -67,7 +67,7 @@ constexpr std::array look_alikes{
 const char* hint_for(std::string_view character)
 {
     const char32_t c = decode_utf8(character, 0).value;
-    if (c >= U'\u0300' && c <= U'\u036F') return "of accents the dot of a rate alone is read: give it a name";
+    if (is_accent(c)) return "of accents the dot of a rate alone is read: give it a name";
     for (const LookAlike& entry : look_alikes)
         if (entry.text == character) return entry.hint;
     return "an expression is made of numbers, names (letters, digits and '_'), + - * / ^, parentheses and brackets";

@@ -2,8 +2,8 @@
 /// Hints for unknown names: other languages' spellings, slips of the hand, a short list.
 #include "expression/name_hints.hpp"
 
+#include "expression/alphabet.hpp"
 #include "expression/derivative.hpp"
-#include "expression/letters.hpp"
 
 #include <fmt/format.h>
 
@@ -32,7 +32,7 @@ constexpr std::array foreign_symbols{
     Foreign{"infinity", infinity_hint},
 };
 
-/// What the model may use under a name of its own, where it may.
+/// Quantities that a model may use under names of its own.
 constexpr std::array quantities{std::pair{"E", "energy"}, std::pair{"H", "hamiltonian"}, std::pair{"L", "lagrangian"}};
 
 constexpr std::array foreign_functions{

@@ -84,6 +84,9 @@ struct TreeNode {
 /// The names that occur in a tree, in order of first occurrence (depth first, left to right).
 [[nodiscard]] std::vector<std::string> names_in(const Tree& tree);
 
+/// True where `name` occurs in the tree.
+[[nodiscard]] bool mentions(const Tree& tree, const std::string& name);
+
 /// Same structure, numbers and names (positions aside).
 [[nodiscard]] bool same_tree(const Tree& a, const Tree& b);
 

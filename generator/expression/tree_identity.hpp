@@ -2,11 +2,10 @@
 /// Numbers for trees: two trees get the same number exactly when they have the same structure, numbers and names.
 #pragma once
 
-#include "expression/tree.hpp"
+#include "expression/fold.hpp"
 
 #include <map>
 #include <string>
-#include <unordered_map>
 
 namespace lagen {
 
@@ -16,11 +15,10 @@ class TreeIdentity {
     [[nodiscard]] std::size_t operator()(const Tree& tree);
 
   private:
-    [[nodiscard]] std::size_t number_of(const TreeNode& node);
+    [[nodiscard]] std::size_t number_of(const TreeNode& node, const std::vector<std::size_t>& arguments);
 
-    std::unordered_map<const TreeNode*, std::size_t> by_address_; ///< looked up, never iterated
+    Fold<std::size_t> by_address_;
     std::map<std::string, std::size_t> by_content_;
-    std::vector<Tree> alive_;
 };
 
 } // namespace lagen

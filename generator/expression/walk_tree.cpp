@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Walks over trees that visit a shared sub-tree once.
-#include "expression/tree.hpp"
+/// Names of trees, and trees compared.
+#include "expression/find_part.hpp"
 
 #include <set>
 #include <utility>
@@ -31,17 +31,25 @@ std::vector<std::string> names_in(const Tree& tree)
 {
     std::vector<std::string> names;
     std::set<std::string_view> known; // of node names, which outlive the walk
-    std::set<const TreeNode*> visited;
-    std::vector<const TreeNode*> pending{tree.get()};
-    while (!pending.empty()) {
-        const TreeNode& node = *pending.back();
-        pending.pop_back();
-        if (!visited.insert(&node).second) continue;
-        if (node.kind == TreeKind::name && known.insert(node.name).second) names.push_back(node.name);
-        for (auto argument = node.arguments.rbegin(); argument != node.arguments.rend(); ++argument)
-            pending.push_back(argument->get());
-    }
+    for_each_part(tree, [&](const Tree& part) {
+        if (part->kind == TreeKind::name && known.insert(part->name).second) names.push_back(part->name);
+    });
     return names;
+}
+
+bool mentions(const Tree& tree, const std::string& name)
+{
+    return find_name({tree}, [&](const std::string& each) { return each == name; }) != nullptr;
+}
+
+Tree find_name(const std::vector<Tree>& trees, const std::function<bool(const std::string&)>& is_wanted)
+{
+    PartSearch search;
+    for (const Tree& tree : trees) {
+        const auto wanted = [&](const Tree& part) { return part->kind == TreeKind::name && is_wanted(part->name); };
+        if (Tree found = search(tree, wanted)) return found;
+    }
+    return nullptr;
 }
 
 bool same_tree(const Tree& a, const Tree& b)

@@ -101,7 +101,7 @@ void read_distribution(const ModelReader& reader, AlgebroidBlock& block, const A
 
 /// The entries of a table, and of the tables inside it, closed; `block` is their record.
 void read_entries(const ModelReader& reader, AlgebroidBlock& block, const AlgebroidDraft& draft);
-/// Whether a line of an anchor is by a base coordinate or a family of them, x = "..", and no table of a section.
+/// True where a line of an anchor is by a base coordinate or a family of them, x = "..", and no table of a section.
 [[nodiscard]] bool is_rate_line(const Model& model, const AlgebroidBlock& block, const TomlEntry& line);
 /// Its entries: rho^x_a is the coefficient of y^a. Throws ModelError where the expression is not linear.
 void read_rate_line(const ModelReader& reader, AlgebroidBlock& block, const TomlEntry& line);
@@ -124,14 +124,6 @@ void define_inner_velocities(ModelReader& reader);
 /// value * y, written as a person would: y itself where value is 1, -y where it is -1.
 [[nodiscard]] Tree product_of(const Tree& value, const Tree& y);
 
-/// Whether one of the replacements mentions `name`.
-[[nodiscard]] bool introduces(const std::map<std::string, Tree>& replacements, const std::string& name);
-/// `name` with underscores behind it, so that neither `body` nor a replacement has it.
-[[nodiscard]] std::string uncaptured_name(const std::string& name, const Tree& body,
-                                          const std::map<std::string, Tree>& replacements);
-/// `tree` with the names of `replacements` replaced; shared parts stay shared. Nothing that comes in is captured by an
-/// index of a sum.
-[[nodiscard]] Tree replace_names(const Tree& tree, const std::map<std::string, Tree>& replacements);
 /// [a, b, ..] or [[a, b], ..] of this shape; a scalar is its one entry.
 [[nodiscard]] Tree array_tree(const Shape& shape, const std::vector<Tree>& entries);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Closing an expression that may use only some of the model's names.
-#include "expression/find_name.hpp"
+#include "expression/find_part.hpp"
 #include "expression/name_hints.hpp"
 #include "model/model_reader.hpp"
 
@@ -18,7 +18,7 @@ Role role_of(const Names& names, const std::string& name)
 }
 
 /// The first name in `trees` that plays none of `roles`.
-const TreeNode* first_forbidden(const std::vector<Tree>& trees, const Names& names, std::initializer_list<Role> roles)
+Tree first_forbidden(const std::vector<Tree>& trees, const Names& names, std::initializer_list<Role> roles)
 {
     return find_name(trees, [&](const std::string& name) {
         return std::find(roles.begin(), roles.end(), role_of(names, name)) == roles.end();
@@ -37,7 +37,7 @@ std::vector<Role> distinct(std::initializer_list<Role> roles)
 void require_roles(const std::vector<Tree>& closed, const Names& names, std::initializer_list<Role> roles,
                    const SourceRange& where, const std::string& what)
 {
-    const TreeNode* bad = first_forbidden(closed, names, roles);
+    const Tree bad = first_forbidden(closed, names, roles);
     if (bad == nullptr) return;
     std::string allowed;
     for (const Role each : distinct(roles)) allowed += (allowed.empty() ? "" : ", ") + role_plural(each);
@@ -76,7 +76,7 @@ std::vector<std::string> names_over(const ModelReader& reader, const Scope& scop
     return known;
 }
 
-/// What was meant, by the names that are legal here alone.
+/// The hint names what was meant, among the names that are legal here.
 [[noreturn]] void refuse_unknown(const UnknownSymbol& error, const ModelReader& reader, const Scope& scope,
                                  std::initializer_list<Role> roles)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "model/form_expression.hpp"
 
+#include "expression/find_part.hpp"
 #include "model/families.hpp"
 #include "model/table_reader.hpp"
 
@@ -66,12 +67,13 @@ class FormReader {
 
     void require_function(const Tree& tree, const std::string& what) const
     {
-        const bool form = is_operation(tree) || (tree->kind == TreeKind::name && form_called(tree->name));
-        if (form)
-            throw ModelError(fmt::format("{} has the form '{}' where a function is required", what, to_text(tree)),
-                             tree->where,
-                             "forms are added, multiplied by functions, and stand in d(A), wedge(A, B) and i(w, A)");
-        for (const Tree& part : tree->arguments) require_function(part, what);
+        const Tree form = PartSearch()(tree, [&](const Tree& part) {
+            return is_operation(part) || (part->kind == TreeKind::name && form_called(part->name));
+        });
+        if (form == nullptr) return;
+        throw ModelError(fmt::format("{} has the form '{}' where a function is required", what, to_text(form)),
+                         form->where,
+                         "forms are added, multiplied by functions, and stand in d(A), wedge(A, B) and i(w, A)");
     }
 
     [[nodiscard]] FormExpression function(const Tree& tree) const

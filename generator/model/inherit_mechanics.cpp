@@ -3,6 +3,7 @@
 /// Lagrangian nor a Hamiltonian nor a control problem of its own. A frame e'_a = A_a^b e_b pulls all of them back: L' =
 /// L and R' = R at y^b = A_a^b y'^a, Q'_a = A_a^b Q_b. Hamiltonians and control problems of files are left where they
 /// are: their momenta and their sigma would need the inverse of A.
+#include "expression/rewrite.hpp"
 #include "model/algebroid_draft.hpp"
 #include "model/families.hpp"
 

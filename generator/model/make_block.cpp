@@ -2,6 +2,7 @@
 /// From drafts to blocks: sections and base coordinates get their numbers, blocks of files theirs in this model.
 #include "model/algebroid_draft.hpp"
 
+#include "expression/rewrite.hpp"
 #include "model/read_values.hpp"
 
 #include <algorithm>

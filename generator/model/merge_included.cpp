@@ -2,6 +2,8 @@
 /// What included files declare joins the including model, under its names.
 #include "model/algebroid_draft.hpp"
 
+#include "expression/find_part.hpp"
+#include "expression/rewrite.hpp"
 #include "model/families.hpp"
 
 #include <algorithm>
@@ -99,24 +101,20 @@ bool same_definition(const Definition& a, const Definition& b)
 }
 
 /// Every name and function that a tree mentions.
-void collect_names(const Tree& root, std::set<std::string>& names)
+std::set<std::string> mentioned_in(const Tree& tree)
 {
-    std::set<const TreeNode*> seen;
-    std::vector<Tree> stack{root};
-    while (!stack.empty()) {
-        const Tree tree = stack.back();
-        stack.pop_back();
-        if (tree == nullptr || !seen.insert(tree.get()).second) continue;
-        if (tree->kind == TreeKind::name || tree->kind == TreeKind::apply) names.insert(family_name(tree->name));
-        stack.insert(stack.end(), tree->arguments.begin(), tree->arguments.end());
-    }
+    std::set<std::string> names;
+    for_each_part(tree, [&](const Tree& part) {
+        if (part->kind == TreeKind::name || part->kind == TreeKind::apply) names.insert(family_name(part->name));
+    });
+    return names;
 }
 
 /// Names of definitions that use one of `hidden`, directly or through others.
 std::set<std::string> definitions_using(const std::vector<Definition>& definitions, std::set<std::string> hidden)
 {
-    std::vector<std::set<std::string>> mentioned(definitions.size());
-    for (std::size_t k = 0; k < definitions.size(); ++k) collect_names(definitions[k].body, mentioned[k]);
+    std::vector<std::set<std::string>> mentioned;
+    for (const Definition& each : definitions) mentioned.push_back(mentioned_in(each.body));
     std::set<std::string> using_hidden;
     for (bool grown = true; grown;) {
         grown = false;

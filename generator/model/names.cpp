@@ -2,10 +2,12 @@
 /// Declarations and their clashes.
 #include "model/names.hpp"
 
+#include "expression/alphabet.hpp"
 #include "expression/parse.hpp"
 #include "expression/tree.hpp"
 #include "model/table_reader.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace lagen {
@@ -51,18 +53,10 @@ std::string role_plural(Role role)
 std::string place_text(const SourceRange& where)
 {
     if (!where.file) return "an unknown place";
-    std::size_t line = 1;
-    std::size_t column = 1;
-    const std::string& text = where.file->text;
-    for (std::size_t k = 0; k < where.begin && k < text.size(); ++k) {
-        if (text[k] == '\n') {
-            ++line;
-            column = 1;
-        } else if ((static_cast<unsigned char>(text[k]) & 0xC0U) != 0x80U) {
-            ++column;
-        }
-    }
-    return fmt::format("line {}, column {}", line, column);
+    const std::string_view before = std::string_view(where.file->text).substr(0, where.begin);
+    const std::string_view line = before.substr(before.rfind('\n') + 1); // the whole where there is no other
+    return fmt::format("line {}, column {}", 1 + std::ranges::count(before, '\n'),
+                       1 + std::ranges::count_if(line, begins_character));
 }
 
 void Names::declare(const std::string& name, Role role, const SourceRange& where)

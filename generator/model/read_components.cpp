@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "model/components.hpp"
 
+#include "expression/rewrite.hpp"
 #include "model/algebroid_draft.hpp"
 #include "model/read_values.hpp"
 #include "model/table_reader.hpp"

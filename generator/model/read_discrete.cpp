@@ -78,7 +78,7 @@ void declare_step(ModelReader& reader, DiscreteBlock& block, const TomlEntry& di
     if (known == nullptr || known->role != Role::parameter) reader.names.declare(name, Role::step, block.step.where);
 }
 
-/// Of a tangent bundle in its standard frame the groupoid is the pair groupoid.
+/// A tangent bundle in its standard frame has the pair groupoid.
 void imply_groupoid(ModelReader& reader)
 {
     Model& model = reader.model;
@@ -96,8 +96,7 @@ void imply_groupoid(ModelReader& reader)
 void refuse_parameters_of_step(const Model& model)
 {
     for (const Parameter& parameter : model.parameters) {
-        const std::vector<std::string> names = names_in(parameter.value);
-        if (std::ranges::find(names, model.discrete->step.name) == names.end()) continue;
+        if (!mentions(parameter.value, model.discrete->step.name)) continue;
         throw ModelError(
             fmt::format("the parameter '{}' is made of the step '{}', which no derivative by the step knows, "
                         "the energy -dL/dh least of all",

@@ -32,12 +32,11 @@ bool stands_in(const std::vector<NamedTree>& jump, const std::vector<Symbol>& sy
                      entry.where(), hint_for(entry.name(), known, "coordinates"));
 }
 
-/// What nothing but the motion itself may change.
+/// Refuses a name that nothing but the motion itself may change.
 void require_free(const ModelReader& reader, const std::string& name, const TomlEntry& entry, const std::string& title)
 {
     for (const Tree& constraint : reader.model.base.constraints) {
-        const std::vector<std::string> held = names_in(constraint);
-        if (std::ranges::find(held, name) == held.end()) continue;
+        if (!mentions(constraint, name)) continue;
         throw ModelError(fmt::format("the jump of {} sets '{}', which the constraint {} = 0 holds", title, name,
                                      to_text(constraint)),
                          entry.where(), "let it set fibre coordinates or momenta");

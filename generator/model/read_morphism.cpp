@@ -3,7 +3,7 @@
 /// are the target's.
 #include "model/morphism.hpp"
 
-#include "expression/find_name.hpp"
+#include "expression/find_part.hpp"
 #include "model/algebroid_draft.hpp"
 #include "model/families.hpp"
 #include "model/read_file.hpp"
@@ -25,7 +25,7 @@ constexpr int deepest_composition = 8;
 struct MapReader {
     const MorphismFile& morphism;
 
-    /// What values of one table may depend on.
+    /// The names that values of one table may depend on.
     struct Legal {
         Scope scope;
         std::set<std::string> names;
@@ -46,7 +46,7 @@ struct MapReader {
     {
         const Tree tree = read_array_expression(value, what);
         const ArrayValue closed = legal.scope.close_array(tree);
-        const TreeNode* bad =
+        const Tree bad =
             find_name(closed.entries, [&](const std::string& name) { return !legal.names.contains(name); });
         if (bad != nullptr)
             throw ModelError(fmt::format("{} may not depend on '{}'", what, bad->name),

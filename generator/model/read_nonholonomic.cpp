@@ -3,6 +3,7 @@
 /// `sections` and `drift` or by `constraints`.
 #include "model/algebroid_draft.hpp"
 
+#include "expression/fold.hpp"
 #include "expression/parse.hpp"
 #include "model/families.hpp"
 #include "model/read_values.hpp"
@@ -37,24 +38,10 @@ class Degrees {
         for (const Symbol& symbol : ambient) ambient_.insert(symbol.name);
     }
 
-    /// Closed trees are at most 2000 levels deep, so plain recursion is safe.
     int of(const Tree& tree)
     {
-        const auto known = known_.find(tree.get());
-        if (known != known_.end()) return known->second;
-        std::vector<int> parts;
-        for (const Tree& argument : tree->arguments) parts.push_back(of(argument));
-        const int largest = parts.empty() ? 0 : *std::ranges::max_element(parts);
-        int degree = largest == 0 ? 0 : 2;
-        if (tree->kind == TreeKind::name) degree = ambient_.contains(tree->name) ? 1 : 0;
-        if (tree->kind == TreeKind::add || tree->kind == TreeKind::negate) degree = largest;
-        if (tree->kind == TreeKind::divide && parts[1] == 0) degree = parts[0];
-        if (tree->kind == TreeKind::multiply) {
-            degree = 0;
-            for (const int part : parts) degree = std::min(2, degree + part);
-        }
-        known_.emplace(tree.get(), degree);
-        return degree;
+        return degrees_(tree,
+                        [this](const Tree& part, const std::vector<int>& parts) { return of_node(*part, parts); });
     }
 
     /// The first term of a sum of degree 2 that is none itself.
@@ -67,8 +54,22 @@ class Degrees {
     }
 
   private:
+    [[nodiscard]] int of_node(const TreeNode& node, const std::vector<int>& parts) const
+    {
+        const int largest = parts.empty() ? 0 : *std::ranges::max_element(parts);
+        int degree = largest == 0 ? 0 : 2;
+        if (node.kind == TreeKind::name) degree = ambient_.contains(node.name) ? 1 : 0;
+        if (node.kind == TreeKind::add || node.kind == TreeKind::negate) degree = largest;
+        if (node.kind == TreeKind::divide && parts[1] == 0) degree = parts[0];
+        if (node.kind == TreeKind::multiply) {
+            degree = 0;
+            for (const int part : parts) degree = std::min(2, degree + part);
+        }
+        return degree;
+    }
+
     std::set<std::string> ambient_;
-    std::map<const TreeNode*, int> known_;
+    Fold<int> degrees_;
 };
 
 void require_affine(const Tree& constraint, Degrees& degrees, const Excerpt& text)

@@ -2,7 +2,7 @@
 /// Parameter values, settings from the command line, and the base's constraints, Casimirs and domain.
 #include "model/model_reader.hpp"
 
-#include "expression/find_name.hpp"
+#include "expression/find_part.hpp"
 #include "expression/parse.hpp"
 #include "model/dependency_order.hpp"
 #include "model/families.hpp"
@@ -101,7 +101,7 @@ void require_coordinate(const ModelReader& reader, const Tree& closed, const Exc
 void refuse_moving(const ModelReader& reader, const std::vector<Tree>& closed, const Excerpt& text)
 {
     constexpr std::size_t longest = 60; ///< characters of the constraint in the hint
-    const TreeNode* time =
+    const Tree time =
         find_name(closed, [&](const std::string& name) { return name == "t" && reader.names.find(name) == nullptr; });
     if (time == nullptr) return;
     throw ModelError("a constraint may not depend on the time ('t')",
@@ -140,7 +140,7 @@ std::vector<Tree> read_inequalities(const ModelReader& reader, const Excerpt& te
     return inequalities;
 }
 
-/// Those of a level set, without repetitions.
+/// Keeps the constraints of a level set, without repetitions.
 void keep_constraints(Base& base, const std::vector<std::size_t>& places)
 {
     Base kept;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "model/scene_form.hpp"
 
+#include "expression/find_part.hpp"
 #include "model/families.hpp"
 #include "model/read_curve.hpp"
 #include "model/table_reader.hpp"
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <set>
-#include <unordered_set>
 
 namespace lagen {
 
@@ -67,7 +67,7 @@ std::vector<ForeignNames> foreign_names(const Model& model, const std::string& f
     return out;
 }
 
-/// Looks for foreign names in trees that may share their parts; a part is looked through once.
+/// Refuses foreign names in trees that may share their parts.
 class ForeignSearch {
   public:
     ForeignSearch(const Model& model, const std::string& form) : foreign_(foreign_names(model, form)) {}
@@ -76,17 +76,15 @@ class ForeignSearch {
     /// through before.
     std::pair<const ForeignNames*, std::string> operator()(const Tree& root)
     {
-        std::vector<const TreeNode*> stack{root.get()};
-        while (!stack.empty() && !foreign_.empty()) {
-            const TreeNode* node = stack.back();
-            stack.pop_back();
-            if (node == nullptr || !seen_.insert(node).second) continue;
-            for (const ForeignNames& each : foreign_)
-                if (node->kind == TreeKind::name && each.names.contains(node->name)) return {&each, node->name};
-            for (auto argument = node->arguments.rbegin(); argument != node->arguments.rend(); ++argument)
-                stack.push_back(argument->get());
-        }
-        return {};
+        if (foreign_.empty()) return {};
+        const ForeignNames* kind = nullptr;
+        const Tree found = search_(root, [&](const Tree& part) {
+            const auto has = [&](const ForeignNames& each) { return each.names.contains(part->name); };
+            const auto place = std::ranges::find_if(foreign_, has);
+            if (part->kind == TreeKind::name && place != foreign_.end()) kind = &*place;
+            return kind != nullptr;
+        });
+        return {kind, found == nullptr ? "" : found->name};
     }
 
     /// Throws ModelError where there is one; `what` depends on it.
@@ -101,7 +99,7 @@ class ForeignSearch {
 
   private:
     std::vector<ForeignNames> foreign_;
-    std::unordered_set<const TreeNode*> seen_; // looked up, never iterated
+    PartSearch search_;
 };
 
 /// Neither velocities nor momenta follow from an arrow without the discrete Lagrangian.

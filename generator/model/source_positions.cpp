@@ -13,21 +13,6 @@ namespace {
 constexpr std::size_t milestone = 64;
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
-unsigned byte(std::string_view text, std::size_t at)
-{
-    return static_cast<unsigned char>(text[at]);
-}
-
-/// Bytes of the sequence that `lead` opens; 0 where it opens none.
-std::size_t sequence_length(unsigned lead)
-{
-    if (lead < 0x80) return 1;
-    if (lead >= 0xC2 && lead < 0xE0) return 2;
-    if (lead >= 0xE0 && lead < 0xF0) return 3;
-    if (lead >= 0xF0 && lead < 0xF5) return 4;
-    return 0;
-}
-
 bool is_control(char32_t c)
 {
     return c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0x2028 || c == 0x2029 || (c >= 0x202A && c <= 0x202E) ||
@@ -43,7 +28,7 @@ SourcePositions::SourcePositions(std::string_view text) : text_(text)
     for (std::size_t character = 0; at < text.size(); ++character) {
         if (character % milestone == 0) milestones_.push_back(at);
         const bool ends_line = text[at] == '\n';
-        at += std::max<std::size_t>(1, sequence_length(byte(text, at)));
+        at += std::max<std::size_t>(1, decode_utf8(text, at).length);
         if (ends_line) lines_.push_back({at, character + 1});
     }
 }
@@ -57,7 +42,7 @@ std::size_t SourcePositions::byte_of(std::size_t line, std::size_t column) const
     if (character / milestone >= milestones_.size()) return line_end;
     std::size_t at = milestones_[character / milestone];
     for (std::size_t k = 0; k < character % milestone && at < line_end; ++k) {
-        at += std::max<std::size_t>(1, sequence_length(byte(text_, at)));
+        at += std::max<std::size_t>(1, decode_utf8(text_, at).length);
     }
     return std::min(at, line_end);
 }

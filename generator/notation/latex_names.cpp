@@ -2,6 +2,8 @@
 /// LaTeX symbols from identifiers.
 #include "notation/latex_names.hpp"
 
+#include "diagnostic.hpp"
+#include "expression/alphabet.hpp"
 #include "expression/symbol.hpp"
 
 #include <algorithm>
@@ -10,53 +12,20 @@
 namespace lagen {
 namespace {
 
-constexpr const char* greek_names[] = {
-    "alpha", "beta",  "gamma",  "delta", "epsilon", "zeta",  "eta",     "theta", "iota", "kappa", "lambda", "mu",
-    "nu",    "xi",    "pi",     "rho",   "sigma",   "tau",   "upsilon", "phi",   "chi",  "psi",   "omega",  "Gamma",
-    "Delta", "Theta", "Lambda", "Xi",    "Pi",      "Sigma", "Upsilon", "Phi",   "Psi",  "Omega"};
-
-struct GreekLetter {
-    const char* letter;
-    const char* latex;
-};
-
-/// Capital letters that look Latin have no LaTeX command of their own.
-constexpr GreekLetter greek_letters[] = {
-    {"α", "\\alpha"},   {"β", "\\beta"},     {"γ", "\\gamma"}, {"δ", "\\delta"},    {"ε", "\\varepsilon"},
-    {"ζ", "\\zeta"},    {"η", "\\eta"},      {"θ", "\\theta"}, {"ι", "\\iota"},     {"κ", "\\kappa"},
-    {"λ", "\\lambda"},  {"μ", "\\mu"},       {"ν", "\\nu"},    {"ξ", "\\xi"},       {"ο", "o"},
-    {"π", "\\pi"},      {"ρ", "\\rho"},      {"σ", "\\sigma"}, {"ς", "\\varsigma"}, {"τ", "\\tau"},
-    {"υ", "\\upsilon"}, {"φ", "\\varphi"},   {"χ", "\\chi"},   {"ψ", "\\psi"},      {"ω", "\\omega"},
-    {"ϕ", "\\phi"},     {"ϑ", "\\vartheta"}, {"Γ", "\\Gamma"}, {"Δ", "\\Delta"},    {"Θ", "\\Theta"},
-    {"Λ", "\\Lambda"},  {"Ξ", "\\Xi"},       {"Π", "\\Pi"},    {"Σ", "\\Sigma"},    {"Υ", "\\Upsilon"},
-    {"Φ", "\\Phi"},     {"Ψ", "\\Psi"},      {"Ω", "\\Omega"}};
-
-bool is_digit(char c)
-{
-    return c >= '0' && c <= '9';
-}
-
-/// Null: none begins there.
-const GreekLetter* greek_letter_at(std::string_view text, std::size_t at)
-{
-    const auto found = std::find_if(std::begin(greek_letters), std::end(greek_letters), [&](const GreekLetter& entry) {
-        return text.substr(at).starts_with(entry.letter);
-    });
-    return found == std::end(greek_letters) ? nullptr : found;
-}
-
 /// A word without digits or '_'.
 std::string word(const std::string& text)
 {
-    if (std::find(std::begin(greek_names), std::end(greek_names), text) != std::end(greek_names)) return "\\" + text;
+    if (const GreekLetter* greek = greek_letter_called(text); greek != nullptr && greek->name == text)
+        return "\\" + text;
     const bool ascii =
         std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
     if (ascii) return text.size() == 1 ? text : "\\mathit{" + text + "}";
     std::string latex;
     for (std::size_t k = 0; k < text.size();) {
-        if (const GreekLetter* found = greek_letter_at(text, k)) {
-            k += std::string_view(found->letter).size();
-            std::string letter = found->latex;
+        const GreekLetter* found = greek_letter_at(text, k);
+        if (found != nullptr && !found->latex.empty()) {
+            k += found->character.size();
+            std::string letter(found->latex);
             for (const auto& [mark, command] : {std::pair("̇", "\\dot{"), std::pair("̈", "\\ddot{")})
                 if (std::string_view(text).substr(k).starts_with(mark)) {
                     letter = command + letter + "}";
@@ -65,10 +34,9 @@ std::string word(const std::string& text)
             latex += (latex.empty() ? "" : " ") + letter;
             continue;
         }
-        std::size_t end = k + 1;
-        while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) ++end;
-        latex += "\\text{" + text.substr(k, end - k) + "}";
-        k = end;
+        const std::size_t length = std::max<std::size_t>(decode_utf8(text, k).length, 1);
+        latex += "\\text{" + text.substr(k, length) + "}";
+        k += length;
     }
     return latex;
 }
@@ -80,11 +48,6 @@ std::string with_subscript(const std::string& latex, const std::string& more)
     if (open != std::string::npos && latex.find('}', open) == latex.size() - 1)
         return latex.substr(0, latex.size() - 1) + "," + more + "}";
     return with_below(latex, more);
-}
-
-bool is_letter(char c)
-{
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
 /// Where the first letter or command of a given symbol ends if a subscript follows it ("\\omega_1": 6), else 0.
@@ -113,7 +76,7 @@ std::string entry_indices(const std::string& name)
     return single ? std::string{indices[0], indices[2]} : indices;
 }
 
-/// What stands between the '_' of a name: "V", "q[1]", "q[2]" of V_q[1]_q[2].
+/// The pieces between the '_' of a name: "V", "q[1]", "q[2]" of V_q[1]_q[2].
 std::vector<std::string> pieces_of(const std::string& name)
 {
     std::vector<std::string> pieces(1);
@@ -141,7 +104,7 @@ constexpr const char* transposed_latex = "^{\\mathsf{T}}";
 constexpr const char* variation_latex = "\\delta ";
 constexpr const char* second_latex = "\\delta^{2} ";
 
-/// What is varied: "x" of "δx"; nothing of "δ", "δ_1" and "δ[1]", which are names of their own.
+/// The name that is varied, "x" of "δx"; nothing of "δ", "δ_1" and "δ[1]", which are names of their own.
 std::string varied_name(const std::string& name, std::string_view mark)
 {
     const bool more = name.starts_with(mark) && name.size() > mark.size();
@@ -235,7 +198,7 @@ void LatexNames::tell_apart(const std::vector<SymbolText>& symbols)
             }
 }
 
-/// Of an entry or, without indices, of the whole family.
+/// The LaTeX of an entry or, without indices, of the whole family.
 std::string LatexNames::family_symbol(const std::string& name) const
 {
     const std::size_t open = indices_begin(name);
@@ -294,9 +257,9 @@ std::string escape_latex(std::string_view text)
 {
     std::string escaped;
     for (std::size_t k = 0; k < text.size(); ++k) {
-        if (const GreekLetter* greek = greek_letter_at(text, k)) {
-            escaped += std::string("$") + greek->latex + "$";
-            k += std::string_view(greek->letter).size() - 1;
+        if (const GreekLetter* greek = greek_letter_at(text, k); greek != nullptr && !greek->latex.empty()) {
+            escaped.append("$").append(greek->latex).append("$");
+            k += greek->character.size() - 1;
             continue;
         }
         const char c = text[k];

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The walk over the tree.
 #include "proof/partial_parts.hpp"
 
+#include "expression/find_part.hpp"
 #include "graph/core/operators.hpp"
 
 #include <set>
+#include <span>
 
 namespace lagen {
 
@@ -20,31 +21,31 @@ bool is_partial(const TreeNode& tree)
     return tree.kind == TreeKind::call && operator_of(op_of(tree.function)).domain != nullptr;
 }
 
+/// The arguments that are evaluated wherever the tree is: of if(..) the condition alone.
+std::span<const Tree> unconditional(const Tree& tree)
+{
+    const bool branches = tree->kind == TreeKind::call && tree->function == Function::select;
+    return std::span(tree->arguments).first(branches ? 1 : tree->arguments.size());
+}
+
 } // namespace
 
 std::vector<NodeId> partial_parts(Graph& graph, Lowering& lower, const Tree& tree)
 {
     std::set<NodeId> parts;
-    std::set<const TreeNode*> seen;
-    std::vector<Tree> open{tree};
-    while (!open.empty()) {
-        const Tree top = open.back();
-        open.pop_back();
-        if (top == nullptr || !seen.insert(top.get()).second) continue;
-        if (is_partial(*top)) {
-            const NodeId node = lower(top);
-            const bool division = top->kind == TreeKind::divide;
-            if (!graph.is_constant(node) && (!division || graph.op(node) == Op::divide)) {
-                parts.insert(node);
-            } else if (division) {
-                const NodeId divisor = lower(top->arguments[1]);
-                if (!graph.is_constant(divisor)) parts.insert(graph.divide(graph.constant(1), divisor));
-            }
+    const auto take = [&](const Tree& part) {
+        if (!is_partial(*part)) return false;
+        const NodeId node = lower(part);
+        const bool division = part->kind == TreeKind::divide;
+        if (!graph.is_constant(node) && (!division || graph.op(node) == Op::divide)) {
+            parts.insert(node);
+        } else if (division) {
+            const NodeId divisor = lower(part->arguments[1]);
+            if (!graph.is_constant(divisor)) parts.insert(graph.divide(graph.constant(1), divisor));
         }
-        const bool branches = top->kind == TreeKind::call && top->function == Function::select;
-        const std::size_t count = branches ? 1 : top->arguments.size();
-        for (std::size_t k = count; k-- > 0;) open.push_back(top->arguments[k]);
-    }
+        return false;
+    };
+    (void)PartSearch()(tree, take, unconditional);
     return {parts.begin(), parts.end()};
 }
 

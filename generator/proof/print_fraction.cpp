@@ -2,6 +2,8 @@
 /// Texts of polynomials and fractions.
 #include "proof/print_fraction.hpp"
 
+#include "expression/alphabet.hpp"
+
 #include <algorithm>
 #include <string_view>
 
@@ -9,7 +11,7 @@ namespace lagen::proof {
 
 namespace {
 
-/// Whether an operator of `text` stands outside of all parentheses.
+/// True where an operator of `text` stands outside of all parentheses.
 bool is_open(const std::string& text)
 {
     int depth = 0;
@@ -38,14 +40,6 @@ std::string term_text(const Ring& ring, const Term& term)
         text += power_text(ring.generator(term.monomial.generator(k)).text, term.monomial.exponent(k));
     }
     return text;
-}
-
-/// The first bytes of a text, at most `size`, ending between two UTF-8 characters.
-std::string cut(const std::string& text, std::size_t size)
-{
-    if (text.size() <= size) return text;
-    while (size > 0 && (static_cast<unsigned char>(text[size]) & 0xC0U) == 0x80U) --size;
-    return text.substr(0, size);
 }
 
 std::string denominator_text(const Ring& ring, const Fraction& a, std::size_t limit)
@@ -114,7 +108,7 @@ std::string to_text(const Ring& ring, const Polynomial& p, std::size_t limit)
         const bool last = k + 1 == p.size();
         if (text.size() + piece.size() + (last ? 0 : tail.size()) > limit) {
             // A first term that is too long on its own is cut; of later ones only whole terms are shown.
-            if (k == 0) text = cut(piece, limit - std::min(limit, tail.size() + 3)) + "...";
+            if (k == 0) text = whole_characters(piece, limit - std::min(limit, tail.size() + 3)) + "...";
             return text + tail;
         }
         text += piece;

@@ -31,9 +31,7 @@ std::string written(const Tree& tree)
 
 bool has_coordinate(const Model& model, const Tree& tree)
 {
-    const std::vector<std::string> names = names_in(tree);
-    const auto stands = [&](const Symbol& each) { return std::ranges::find(names, each.name) != names.end(); };
-    return std::ranges::any_of(model.base.coordinates, stands);
+    return std::ranges::any_of(model.base.coordinates, [&](const Symbol& x) { return mentions(tree, x.name); });
 }
 
 std::vector<NamedNumber> pick(const std::vector<Symbol>& symbols, const Values& values)
@@ -74,7 +72,7 @@ long double SceneEvaluator::finite(const Tree& tree, const Values& values, const
                      tree->where.file ? tree->where : where);
 }
 
-/// Of a discrete scene the step that it gives wins over the parameter of that name.
+/// The step that a discrete scene gives wins over the parameter of that name.
 Values SceneEvaluator::parameter_values(const Values& given)
 {
     Values values = values_in_order(given);
@@ -166,7 +164,7 @@ void SceneEvaluator::require_domain(const Values& values)
     }
 }
 
-/// Of bounds over parameters.
+/// Bounds over parameters must be in order.
 void SceneEvaluator::require_bounds(const Values& parameters)
 {
     if (!model_.control) return;
@@ -218,7 +216,7 @@ void SceneEvaluator::require_in_group(const Values& parameters, const std::vecto
         scene_.element_where, "start from a shorter step, or from momenta in `initial`");
 }
 
-/// Those that the scene carries, and matrices that start in their groups.
+/// Reads the states that the scene carries, and matrices that start in their groups.
 void SceneEvaluator::read_states(Values& values, SceneValues& out)
 {
     for (const FirstOrderState& state : model_.states)

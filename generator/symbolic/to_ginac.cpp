@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Trees to GiNaC, each shared sub-tree once.
+#include "expression/fold.hpp"
 #include "symbolic/ginac_door.hpp"
 #include "symbolic/ginac_erf.hpp"
 #include "symbolic/ginac_ring.hpp"
@@ -96,21 +97,11 @@ class ToGinac {
   public:
     explicit ToGinac(SymbolTable& symbols) : symbols_(symbols) {}
 
-    /// Depth first with a stack of its own: trees may be thousands of levels deep.
-    GiNaC::ex operator()(const Tree& root)
+    GiNaC::ex operator()(const Tree& tree)
     {
-        std::vector<std::pair<const TreeNode*, std::size_t>> stack = {{root.get(), 0}};
-        while (!stack.empty()) {
-            auto& [node, next] = stack.back();
-            if (next < node->arguments.size()) {
-                const TreeNode* child = node->arguments[next++].get();
-                if (!done_.contains(child)) stack.emplace_back(child, 0);
-                continue;
-            }
-            if (!done_.contains(node)) finish(*node);
-            stack.pop_back();
-        }
-        return done_.at(root.get()).value;
+        return done_(tree, [this](const Tree& part,
+                                  const std::vector<Done>& arguments) { return finished(*part, arguments); })
+            .value;
     }
 
   private:
@@ -119,20 +110,19 @@ class ToGinac {
         std::size_t size; ///< nodes when written out, saturated
     };
 
-    void finish(const TreeNode& node)
+    Done finished(const TreeNode& node, const std::vector<Done>& arguments)
     {
-        std::vector<GiNaC::ex> arguments;
+        GiNaC::exvector values;
         std::size_t size = 1;
-        for (const Tree& argument : node.arguments) {
-            const Done& done = done_.at(argument.get());
-            arguments.push_back(done.value);
+        for (const Done& done : arguments) {
+            values.push_back(done.value);
             size = std::min(size + done.size, symbolic_size_limit + 1);
         }
         if (size > symbolic_size_limit)
             throw MathematicsError(
                 "the expression has more than " + std::to_string(symbolic_size_limit) +
                 " terms and factors when it is written out, too many for a formula that a person could read");
-        done_.emplace(&node, Done{value_of(node, arguments), size});
+        return {value_of(node, values), size};
     }
 
     GiNaC::ex value_of(const TreeNode& node, const std::vector<GiNaC::ex>& a)
@@ -142,14 +132,8 @@ class ToGinac {
         case TreeKind::pi: return GiNaC::Pi;
         case TreeKind::name: return symbols_.symbol(node.name);
         case TreeKind::negate: return -a[0];
-        case TreeKind::add: {
-            GiNaC::exvector terms(a.begin(), a.end());
-            return GiNaC::ex(GiNaC::dynallocate<GiNaC::add>(terms));
-        }
-        case TreeKind::multiply: {
-            GiNaC::exvector factors(a.begin(), a.end());
-            return GiNaC::ex(GiNaC::dynallocate<GiNaC::mul>(factors));
-        }
+        case TreeKind::add: return GiNaC::ex(GiNaC::dynallocate<GiNaC::add>(a));
+        case TreeKind::multiply: return GiNaC::ex(GiNaC::dynallocate<GiNaC::mul>(a));
         case TreeKind::divide:
             if (a[1].is_zero())
                 throw MathematicsError("division by " + to_text(node.arguments[1]) + ", which is zero everywhere");
@@ -163,7 +147,7 @@ class ToGinac {
     }
 
     SymbolTable& symbols_;
-    std::map<const TreeNode*, Done> done_;
+    Fold<Done> done_;
 };
 
 } // namespace

@@ -44,10 +44,7 @@ std::vector<NodeId> named_states(const System& system)
     std::vector<NodeId> states;
     for (std::size_t k = 0; k < system.states.size(); ++k) {
         const NamedTree& written = system.written.states[k];
-        const auto has_name = [&](const Tree& tree) {
-            const std::vector<std::string> names = names_in(tree);
-            return std::ranges::find(names, written.name) != names.end();
-        };
+        const auto has_name = [&](const Tree& tree) { return mentions(tree, written.name); };
         if (written.where.file != nullptr || std::ranges::any_of(system.written.all, has_name) ||
             std::ranges::any_of(system.written.invariants, has_name, &NamedTree::value))
             states.push_back(system.states[k]);

@@ -11,7 +11,7 @@ bool is_negative_number(const Tree& tree)
     return tree->kind == TreeKind::number && tree->number < 0;
 }
 
-/// What a tree divides by at its root, or null.
+/// The divisor at the root of a tree, or null.
 Tree divisor_of(const Tree& tree)
 {
     if (tree->kind == TreeKind::divide) return tree->arguments[1];
@@ -43,21 +43,15 @@ bool ZeroDivisors::is_zero(NodeId node)
 
 void ZeroDivisors::refuse(const Tree& root, const Lower& lower)
 {
-    std::vector<Tree> stack = {root};
-    while (!stack.empty()) {
-        const Tree tree = stack.back();
-        stack.pop_back();
-        if (tree == nullptr || !seen_.insert(tree.get()).second) continue;
-        // Pushed in reverse, so that the leftmost division is met first.
-        for (auto argument = tree->arguments.rbegin(); argument != tree->arguments.rend(); ++argument)
-            stack.push_back(*argument);
-        const Tree divisor = divisor_of(tree);
-        if (divisor == nullptr) continue;
-        const NodeId node = lower(divisor);
-        if (!is_zero(node)) continue;
-        throw ModelError("division by " + to_text(divisor) + ", which is zero everywhere", divisor->where,
-                         "a divisor must be nonzero somewhere on the domain");
-    }
+    const auto divides_by_zero = [&](const Tree& part) {
+        const Tree divisor = divisor_of(part);
+        return divisor != nullptr && is_zero(lower(divisor));
+    };
+    const Tree quotient = seen_(root, divides_by_zero);
+    if (quotient == nullptr) return;
+    const Tree divisor = divisor_of(quotient);
+    throw ModelError("division by " + to_text(divisor) + ", which is zero everywhere", divisor->where,
+                     "a divisor must be nonzero somewhere on the domain");
 }
 
 } // namespace lagen

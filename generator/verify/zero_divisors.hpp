@@ -2,6 +2,7 @@
 /// Divisions by an expression that is zero everywhere, also where algebra or the base constraints are needed to see it.
 #pragma once
 
+#include "expression/find_part.hpp"
 #include "graph/core/lower.hpp"
 #include "verify/witness_point.hpp"
 
@@ -28,7 +29,7 @@ class ZeroDivisors {
     ProofSetting setting_;
     ZeroDecider decider_;
     std::optional<WitnessPoint> point_; ///< where most divisors are seen not to vanish
-    std::set<const TreeNode*> seen_;
+    PartSearch seen_;
     std::set<NodeId> nonzero_; ///< looked at before
 };
 

@@ -3,6 +3,7 @@
 #include "commands/machine/activity_watch.hpp"
 
 #include "activity.hpp"
+#include "expression/alphabet.hpp"
 
 #include <fmt/format.h>
 
@@ -38,12 +39,7 @@ void write_line(const std::string& text)
 void show_line(const std::string& text, Clock::duration lasting)
 {
     const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(lasting).count();
-    std::string shown = fmt::format("{} s  {}", seconds, text);
-    if (shown.size() > line_width) {
-        std::size_t end = line_width;
-        while (end > 0 && (static_cast<unsigned char>(shown[end]) & 0xC0U) == 0x80U) --end; // between two characters
-        shown.resize(end);
-    }
+    const std::string shown = whole_characters(fmt::format("{} s  {}", seconds, text), line_width);
     const std::lock_guard lock(line_mutex);
     write_line(fmt::format("\r{:{}}", shown, line_width));
     line_is_shown = true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/plot/labels.hpp"
 
+#include "expression/alphabet.hpp"
 #include "model/families.hpp"
 
 #include <fmt/core.h>
@@ -16,19 +17,6 @@ namespace lagen {
 
 namespace {
 
-constexpr std::array<std::pair<const char*, const char*>, 40> latex_characters{{
-    {"alpha", "α"},  {"beta", "β"},    {"gamma", "γ"},   {"delta", "δ"},    {"epsilon", "ε"}, {"varepsilon", "ε"},
-    {"zeta", "ζ"},   {"eta", "η"},     {"theta", "θ"},   {"vartheta", "ϑ"}, {"iota", "ι"},    {"kappa", "κ"},
-    {"lambda", "λ"}, {"mu", "μ"},      {"nu", "ν"},      {"xi", "ξ"},       {"pi", "π"},      {"rho", "ρ"},
-    {"sigma", "σ"},  {"tau", "τ"},     {"upsilon", "υ"}, {"phi", "φ"},      {"varphi", "φ"},  {"chi", "χ"},
-    {"psi", "ψ"},    {"omega", "ω"},   {"Gamma", "Γ"},   {"Delta", "Δ"},    {"Theta", "Θ"},   {"Lambda", "Λ"},
-    {"Xi", "Ξ"},     {"Pi", "Π"},      {"Sigma", "Σ"},   {"Phi", "Φ"},      {"Psi", "Ψ"},     {"Omega", "Ω"},
-    {"ell", "ℓ"},    {"partial", "∂"}, {"cdot", "·"},    {"times", "×"},
-}};
-
-constexpr std::array<const char*, 10> subscripts{"₀", "₁", "₂", "₃", "₄", "₅", "₆", "₇", "₈", "₉"};
-constexpr std::array<const char*, 10> superscripts{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-
 /// The letters of a command behind its backslash.
 std::string command_at(const std::string& text, std::size_t at)
 {
@@ -37,15 +25,15 @@ std::string command_at(const std::string& text, std::size_t at)
     return text.substr(at, end - at);
 }
 
-/// Digits as subscripts; empty for anything else.
-std::string as_subscript(const std::string& text)
+/// "∂" for the command "partial"; empty where it has no character.
+std::string_view character_of(std::string_view command)
 {
-    std::string out;
-    for (const char c : text) {
-        if (std::isdigit(static_cast<unsigned char>(c)) == 0) return "";
-        out += subscripts[static_cast<std::size_t>(c - '0')];
-    }
-    return out;
+    static constexpr std::array<std::pair<std::string_view, std::string_view>, 4> signs{
+        {{"ell", "ℓ"}, {"partial", "∂"}, {"cdot", "·"}, {"times", "×"}}};
+    for (const auto& [name, character] : signs)
+        if (name == command) return character;
+    const GreekLetter* greek = greek_letter_called(command);
+    return greek == nullptr ? std::string_view() : greek->character;
 }
 
 /// "kg m^2/s" with its digits raised.
@@ -57,9 +45,10 @@ std::string raised(const std::string& unit)
             out += unit[at];
             continue;
         }
-        if (at + 1 < unit.size() && unit[at + 1] == '-') out += "⁻", ++at;
-        for (; at + 1 < unit.size() && std::isdigit(static_cast<unsigned char>(unit[at + 1])) != 0; ++at)
-            out += superscripts[static_cast<std::size_t>(unit[at + 1] - '0')];
+        const std::size_t digits = at + (unit.compare(at, 2, "^-") == 0 ? 2 : 1);
+        const std::size_t end = std::min(unit.find_first_not_of("0123456789", digits), unit.size());
+        out += raised_digits(unit.substr(at + 1, end - at - 1));
+        at = end - 1;
     }
     return out;
 }
@@ -128,7 +117,7 @@ std::vector<Symbol> along(const std::vector<std::vector<Symbol>>& curves, std::s
 double character_width(char32_t c)
 {
     const auto one_of = [c](std::string_view set) { return c < 0x80 && set.find(static_cast<char>(c)) != set.npos; };
-    if (c >= 0x300 && c < 0x370) return 0; // accents
+    if (is_accent(c)) return 0;
     if (one_of(" !'(),-./:;I[]fijlrt|\\") || c == 0xb7 || (c >= 0x2070 && c < 0x20a0)) return 5.4;
     if (one_of("%@MWm") || (c >= 0x1100 && (c < 0x2000 || c > 0x2e7f) && c < 0x10000)) return c < 0x80 ? 13 : 14;
     if (one_of("#+<=>^w~") || c == 0x3c9 || (c >= 0x2190 && c < 0x2300)) return 10.9;
@@ -169,23 +158,22 @@ std::string characters_of_latex(const std::string& latex)
         const char c = latex[at];
         if (c == '\\') {
             const std::string command = command_at(latex, at + 1);
-            const auto known = std::ranges::find(latex_characters, command,
-                                                 [](const auto& row) { return std::string_view(row.first); });
+            const std::string_view character = character_of(command);
             if (command == "dot")
                 accent = "\u0307";
-            else if (known == latex_characters.end())
+            else if (character.empty())
                 return "";
             else
-                add(known->second);
+                add(std::string(character));
             at += command.size();
         } else if (c == '_') {
             const bool braces = at + 1 < latex.size() && latex[at + 1] == '{';
             const std::size_t begin = at + (braces ? 2 : 1);
             const std::size_t end = braces ? latex.find('}', begin) : begin + 1;
             if (end == std::string::npos || end > latex.size()) return "";
-            const std::string subscript = as_subscript(latex.substr(begin, end - begin));
-            if (subscript.empty()) return "";
-            out += subscript;
+            const std::string below = latex.substr(begin, end - begin);
+            if (below.empty() || !std::ranges::all_of(below, [](char each) { return is_digit(each); })) return "";
+            out += lowered_digits(below);
             at = braces ? end : begin;
         } else if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == ' ') {
             if (c != ' ') add(std::string(1, c));

@@ -2,7 +2,7 @@
 #include "commands/reduce/quotient_document.hpp"
 
 #include "diagnostic.hpp"
-#include "equations/rewrite_tree.hpp"
+#include "expression/rewrite.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/lower.hpp"
 #include "model/families.hpp"
@@ -15,15 +15,6 @@
 namespace lagen {
 
 namespace {
-
-Tree with_values(const Tree& tree, const std::map<std::string, Tree>& values)
-{
-    return rewrite_tree(tree, [&](const Tree& node) -> Tree {
-        if (node->kind != TreeKind::name) return nullptr;
-        const auto found = values.find(node->name);
-        return found == values.end() ? nullptr : found->second;
-    });
-}
 
 /// "x[1..3]"
 std::string declaration_of(const SymbolGroup& group)
@@ -122,7 +113,7 @@ void QuotientDocument::choose_names(const std::vector<Symbol>& symbols, bool fib
 /// A node over the m, u, w.
 Tree QuotientDocument::shown(NodeId node) const
 {
-    return with_values(to_tree(reduction_.graph, node), values_);
+    return replace_names(to_tree(reduction_.graph, node), values_);
 }
 
 bool QuotientDocument::is_in_names_of_whole(const Tree& tree) const
@@ -139,7 +130,7 @@ bool QuotientDocument::is_in_names_of_whole(const Tree& tree) const
     return true;
 }
 
-/// Whether a function in the names of the whole is one on the quotient.
+/// True where a function in the names of the whole is one on the quotient.
 bool QuotientDocument::is_kept(const Tree& tree) const
 {
     return is_in_names_of_whole(tree) && reduction_.is_invariant(Lowering(reduction_.graph)(tree));
@@ -156,7 +147,7 @@ std::vector<std::string> QuotientDocument::domain() const
                                    "a symmetry of the motions is one of the domain too; a condition f > 0 is invariant "
                                    "where the generators change f by a factor that is a number");
         const auto folded = [&](const Tree& side) {
-            return to_tree(reduction_.graph, Lowering(reduction_.graph)(with_values(side, values_)));
+            return to_tree(reduction_.graph, Lowering(reduction_.graph)(replace_names(side, values_)));
         };
         const Tree on_slice =
             compare(condition->comparison, folded(condition->arguments[0]), folded(condition->arguments[1]));
@@ -195,7 +186,7 @@ void QuotientDocument::drop_claims()
         if (!is_kept(each.value)) document_.drop("observables", each.name, fmt::format("the observable {}", each.name));
 }
 
-/// Whether the scene starts on the slice, with the start of the quotient in its table.
+/// True where the scene starts on the slice; the start of the quotient is put into its table.
 bool QuotientDocument::move_start(const Scene& scene, TomlValue& table) const
 {
     const Quotient& quotient = reduction_.quotient;
@@ -237,7 +228,7 @@ bool QuotientDocument::move_start(const Scene& scene, TomlValue& table) const
     return true;
 }
 
-/// Of what a scene shows the invariant columns are left; one that does not start on the slice is left out.
+/// A scene keeps its invariant columns; one that does not start on the slice is left out.
 void QuotientDocument::move_scenes()
 {
     std::vector<std::string> gone;

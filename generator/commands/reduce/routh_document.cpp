@@ -4,7 +4,7 @@
 #include "commands/line/options.hpp"
 #include "commands/reduce/reduced_document.hpp"
 #include "diagnostic.hpp"
-#include "equations/rewrite_tree.hpp"
+#include "expression/rewrite.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -85,10 +85,8 @@ class RouthDocument {
     std::string restrict_domain()
     {
         const auto is_of_base = [&](const Tree& tree) {
-            const std::vector<std::string> names = names_in(tree);
-            return std::ranges::none_of(names, [&](const std::string& name) {
-                return name == "t" || std::ranges::find(model_.fibre.coordinates, name, &Symbol::name) !=
-                                          model_.fibre.coordinates.end();
+            return !mentions(tree, "t") && std::ranges::none_of(model_.fibre.coordinates, [&](const Symbol& symbol) {
+                return mentions(tree, symbol.name);
             });
         };
         std::vector<std::string> others;
@@ -114,14 +112,12 @@ class RouthDocument {
         for (const std::size_t k : cyclic_) entry_in(states, coordinate(k)) = toml_string(velocity(k));
     }
 
-    /// What is about the whole model alone, and claims that rest on the coordinates.
+    /// Drops what is about the whole model alone, and claims that rest on the coordinates.
     void drop_claims()
     {
         document_.drop({"symmetries", "forms", "hamilton_jacobi"});
         const auto rests_on = [&](const NamedTree& claim) {
-            const std::vector<std::string> names = names_in(claim.value);
-            return std::ranges::any_of(
-                cyclic_, [&](std::size_t k) { return std::ranges::find(names, coordinate(k)) != names.end(); });
+            return std::ranges::any_of(cyclic_, [&](std::size_t k) { return mentions(claim.value, coordinate(k)); });
         };
         for (const NamedTree& claim : model_.invariants)
             if (rests_on(claim)) document_.drop("invariants", claim.name, fmt::format("the invariant {}", claim.name));
@@ -149,26 +145,21 @@ class RouthDocument {
     /// p_k at the start, over the parameters; null where the scene does not say.
     [[nodiscard]] Tree start_of(const Scene& scene, std::size_t k, const Tree& p) const
     {
-        std::map<std::string, Tree> values;
+        TreesByName values;
         for (const NamedTree& each : scene.initial) values[each.name] = each.value;
         if (const auto given = values.find(momentum(k)); given != values.end()) return given->second;
         values["t"] = scene.start != nullptr ? scene.start : number(0);
         bool known = true;
-        const std::vector<std::string> needed = names_in(p);
         for (const auto* symbols : {&model_.base.coordinates, &model_.fibre.coordinates})
             for (const Symbol& each : *symbols) {
                 if (values.contains(each.name)) continue;
                 if (symbols == &model_.fibre.coordinates && scene.rest)
                     values[each.name] = number(0);
                 else
-                    known = known && std::ranges::find(needed, each.name) == needed.end();
+                    known = known && !mentions(p, each.name);
             }
         if (!known) return nullptr;
-        return rewrite_tree(p, [&](const Tree& node) -> Tree {
-            if (node->kind != TreeKind::name) return nullptr;
-            const auto found = values.find(node->name);
-            return found == values.end() ? nullptr : found->second;
-        });
+        return replace_names(p, values);
     }
 
     const Model& model_;
@@ -194,15 +185,13 @@ std::vector<std::size_t> coordinates_to_reduce(const Model& model, const std::ve
         if (std::ranges::find(cyclic, k) == cyclic.end()) cyclic.push_back(k);
     }
     std::ranges::sort(cyclic);
-    for (const Tree& condition : model.base.domain) {
-        const std::vector<std::string> used = names_in(condition);
+    for (const Tree& condition : model.base.domain)
         for (const std::size_t k : cyclic)
-            if (const std::string& name = model.base.coordinates[k].name; std::ranges::find(used, name) != used.end())
+            if (const std::string& name = model.base.coordinates[k].name; mentions(condition, name))
                 throw MathematicsError(fmt::format("the domain of model '{}' has the coordinate '{}', which would be "
                                                    "reduced",
                                                    model.name, name),
                                        "a symmetry of the motions is none of the domain: leave the condition out");
-    }
     if (cyclic.size() == model.base.coordinates.size())
         throw MathematicsError(
             fmt::format("every coordinate of model '{}' would be reduced: nothing is left to move", model.name),

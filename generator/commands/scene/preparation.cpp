@@ -45,7 +45,7 @@ void require_system(const Options& options, const Scene& scene, const MethodEntr
     throw ModelError(obstacle->text, scene.method_where, obstacle->hint);
 }
 
-/// What neither separates nor is a sum of exact flows.
+/// Splitting methods need a kinetic and a potential part, or a sum of exact flows.
 std::optional<Obstacle> obstacle_to_splitting(const MethodEntry& method, const KernelModule& module)
 {
     using Kind = Separation::Kind;
@@ -66,7 +66,7 @@ std::optional<Obstacle> obstacle_to_splitting(const MethodEntry& method, const K
     return obstacle;
 }
 
-/// What no group moves, wholly or in part.
+/// Methods on groups need states that a group moves.
 std::optional<Obstacle> obstacle_to_group(const MethodEntry& method, const KernelModule& module)
 {
     const GroupMotion& motion = module.motion;
@@ -83,7 +83,7 @@ std::optional<Obstacle> obstacle_to_group(const MethodEntry& method, const Kerne
         "linearly, and matrices of [reconstruct]"};
 }
 
-/// What of this machine the program depends on: another machine may see the same cache.
+/// CPU features that the compiled program needs; they are part of the key, since machines may share the cache.
 std::string vectors_of(const Driver& driver)
 {
     const std::vector<std::string> options = driver.abreast ? vector_options() : std::vector<std::string>();
@@ -148,8 +148,7 @@ std::optional<Obstacle> obstacle_to_composition(const MethodEntry& method, const
     const std::string& scheme = checked.model.discrete->scheme;
     for (const char* name : {"energy", "lagrangian"})
         for (const NamedTree& column : scene.observe.value_or(std::vector<NamedTree>()))
-            if (const auto names = names_in(column.value);
-                column.name == name || std::ranges::find(names, name) != names.end())
+            if (column.name == name || mentions(column.value, name))
                 return Obstacle{fmt::format("{} composes steps, and the column '{}' is of the arrow of one step",
                                             method.name, column.name),
                                 "observe functions of positions and momenta"};

@@ -22,13 +22,12 @@ constexpr std::uint64_t most_sweep_rows = 1'000'000'000'000'000;
     throw UsageError(fmt::format("lagen sweep: --{} {}: {}", range.name.option, range.text, what));
 }
 
-/// Whether the value of a parameter follows from that of another one.
+/// True where the value of a parameter follows from that of another one.
 bool follows_from(const Model& model, const Parameter& parameter, const std::string& name)
 {
-    const std::vector<std::string> uses = names_in(parameter.value);
     return std::ranges::any_of(model.parameters, [&](const Parameter& each) {
-        const bool used = std::ranges::find(uses, each.symbol.name) != uses.end();
-        return used && (each.symbol.name == name || follows_from(model, each, name));
+        return mentions(parameter.value, each.symbol.name) &&
+               (each.symbol.name == name || follows_from(model, each, name));
     });
 }
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "equations/written/index_shape.hpp"
 
+#include "expression/find_part.hpp"
+#include "expression/fold.hpp"
+#include "expression/rewrite.hpp"
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -11,6 +15,11 @@ namespace lagen {
 namespace {
 
 constexpr std::size_t most_shape_nodes = 4000; ///< of an expression that is looked at
+
+bool is_sum(const Tree& tree)
+{
+    return tree->kind == TreeKind::sum_over;
+}
 
 /// Gives back what is put for the index.
 using IndexMap = std::function<std::string(const IndexSlot&)>;
@@ -165,21 +174,26 @@ std::optional<std::vector<Tree>> terms_of(const IndexedSum& sum)
 
 Tree without_sums(const Tree& tree)
 {
-    if (tree->arguments.empty()) return tree;
-    if (tree->kind == TreeKind::sum_over) {
-        const auto terms = terms_of(indexed_sum(tree));
-        if (!terms) return tree;
+    return rewrite(tree, [](const Tree& part) -> Tree {
+        if (!is_sum(part)) return nullptr;
+        const auto terms = terms_of(indexed_sum(part));
+        if (!terms) return part;
         if (terms->empty()) return number(0);
         return without_sums(terms->size() == 1 ? (*terms)[0] : add(*terms));
-    }
-    TreeNode node = *tree;
-    for (Tree& argument : node.arguments) argument = without_sums(argument);
-    return std::make_shared<const TreeNode>(std::move(node));
+    });
 }
 
 bool has_sums(const Tree& tree)
 {
-    return tree->kind == TreeKind::sum_over || std::ranges::any_of(tree->arguments, has_sums);
+    return any_part(tree, is_sum);
+}
+
+std::size_t sums_inside(const Tree& tree)
+{
+    return Fold<std::size_t>()(tree, [](const Tree& part, const std::vector<std::size_t>& heights) {
+        const std::size_t below = heights.empty() ? 0 : *std::ranges::max_element(heights);
+        return below + (is_sum(part) ? 1 : 0);
+    });
 }
 
 } // namespace lagen

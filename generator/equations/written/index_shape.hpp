@@ -10,7 +10,7 @@
 
 namespace lagen {
 
-/// What the text of an index says where it is a number. Else it is a letter, perhaps with an offset, "j+1"; the greater
+/// The value of an index whose text is a number. Else it is a letter, perhaps with an offset, "j+1"; the greater
 /// one of two, "max(i,j)"; or ":", a row.
 [[nodiscard]] std::optional<long> index_number(const std::string& text);
 
@@ -57,5 +57,7 @@ struct IndexedSum {
 [[nodiscard]] Tree without_sums(const Tree& tree);
 
 [[nodiscard]] bool has_sums(const Tree& tree);
+/// The most sums of which each stands inside of the next.
+[[nodiscard]] std::size_t sums_inside(const Tree& tree);
 
 } // namespace lagen

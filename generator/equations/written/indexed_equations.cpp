@@ -84,7 +84,7 @@ class Joining {
         }
         for (Tree& term : terms) term = sums_.joined(term);
         const Tree joined = array_of({tree->arguments[0], array_of(mass), array_of(sums_.joined_terms(terms))});
-        const bool has_letters = depth_of(joined) + most_indices <= letters_.size();
+        const bool has_letters = sums_inside(joined) + most_indices <= letters_.size();
         return {equation, has_sums(joined) && has_letters ? joined : tree};
     }
 
@@ -188,7 +188,7 @@ class Joining {
         return indices;
     }
 
-    /// What the first equation may be with a letter for the index of its left side that has this value.
+    /// All that the first equation may be with a letter for the index of its left side that has this value.
     std::vector<IndexPattern> patterns_of(const std::vector<Draft>& drafts, std::size_t first,
                                           const std::string& letter, long value, std::size_t place)
     {
@@ -244,7 +244,7 @@ class Joining {
         return list->arguments.empty() ? std::optional<Keys>(Keys()) : sums_.keys().of(add(list->arguments));
     }
 
-    /// Whether the pattern is, `by` further on, this equation.
+    /// True where the pattern is, `by` further on, this equation.
     bool fits(const IndexPattern& pattern, const Draft& first, const Draft& draft, std::size_t by)
     {
         if (!is_plain(draft.equation) || draft.equation.left != first.equation.left ||
@@ -290,13 +290,6 @@ class Joining {
         const Tree whole = array_of(parts);
         if (!has_sums(whole) && result.ranges.empty()) return draft.equation;
         return with_tree(result, with_letters(whole, letters, taken));
-    }
-
-    static std::size_t depth_of(const Tree& tree)
-    {
-        std::size_t depth = 0;
-        for (const Tree& argument : tree->arguments) depth = std::max(depth, depth_of(argument));
-        return depth + (tree->kind == TreeKind::sum_over ? 1 : 0);
     }
 
     Tree with_letters(const Tree& tree, const std::map<std::string, std::string>& letters, std::size_t taken) const

@@ -15,13 +15,6 @@ constexpr long most_values = 1000;      ///< of an index, on either side of one 
 constexpr std::size_t sign_length = 11; ///< characters of "sum_{i=1..3} "
 constexpr std::size_t fewest_terms = 3; ///< of a sum that is written over an index
 
-std::size_t height_of(const Tree& tree)
-{
-    std::size_t height = 0;
-    for (const Tree& argument : tree->arguments) height = std::max(height, height_of(argument));
-    return height + (tree->kind == TreeKind::sum_over ? 1 : 0);
-}
-
 /// The product without products and signs of factors inside.
 Tree product_of(const std::vector<Tree>& factors)
 {
@@ -61,7 +54,7 @@ void take_out(Keys& whole, const Keys& part)
     for (const std::string& key : part) whole.erase(whole.find(key));
 }
 
-/// Whether an index is a letter of ranges or of sums around the term.
+/// True where an index is a letter of ranges or of sums around the term.
 bool has_letters(const Tree& tree)
 {
     const IndexShape shape = shape_of(tree);
@@ -163,7 +156,7 @@ std::vector<Tree> SumWriting::joined_terms(std::vector<Tree> terms)
     return result;
 }
 
-/// Of two items of one form, or of one item that has a sum; each once.
+/// Patterns come from two items of one form, or from one item that has a sum; each stands once.
 std::vector<IndexPattern> SumWriting::patterns_of(const std::vector<Item>& items, bool from_one)
 {
     std::vector<IndexPattern> patterns;
@@ -171,7 +164,7 @@ std::vector<IndexPattern> SumWriting::patterns_of(const std::vector<Item>& items
     const auto take = [&](IndexPattern pattern) {
         if (known.insert(to_text(pattern.tree)).second) patterns.push_back(std::move(pattern));
     };
-    const auto letter_of = [](const Tree& tree) { return "#" + std::to_string(height_of(tree) + 1); };
+    const auto letter_of = [](const Tree& tree) { return "#" + std::to_string(sums_inside(tree) + 1); };
     if (from_one) {
         for (const Item& item : items)
             if (has_sums(item.tree))

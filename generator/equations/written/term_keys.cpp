@@ -2,6 +2,7 @@
 #include "equations/written/term_keys.hpp"
 
 #include "equations/written/index_shape.hpp"
+#include "expression/rewrite.hpp"
 #include "symbolic/shortest_form.hpp"
 
 #include <algorithm>
@@ -16,11 +17,8 @@ constexpr const char* no_value = "?";               ///< the key of what has non
 /// Products of vectors as names: what they mean is no matter of their terms.
 Tree with_opaque_products(const Tree& tree)
 {
-    if (tree->kind == TreeKind::apply) return name(to_text(tree));
-    if (tree->arguments.empty()) return tree;
-    TreeNode node = *tree;
-    for (Tree& argument : node.arguments) argument = with_opaque_products(argument);
-    return std::make_shared<const TreeNode>(std::move(node));
+    return rewrite(tree,
+                   [](const Tree& part) { return part->kind == TreeKind::apply ? name(to_text(part)) : nullptr; });
 }
 
 } // namespace

@@ -103,29 +103,9 @@ NodeId combine(Graph& graph, const TreeNode& tree, std::span<const NodeId> argum
 
 NodeId Lowering::operator()(const Tree& tree)
 {
-    struct Visit {
-        const Tree* tree;
-        std::size_t next;
-    };
-    alive_.push_back(tree);
-    std::vector<Visit> stack{{&tree, 0}};
-    std::vector<NodeId> arguments;
-    while (!stack.empty()) {
-        Visit& visit = stack.back();
-        const TreeNode* node = visit.tree->get();
-        if (done_.contains(node)) {
-            stack.pop_back();
-        } else if (visit.next < node->arguments.size()) {
-            const Tree* child = &node->arguments[visit.next++];
-            stack.push_back({child, 0});
-        } else {
-            arguments.clear();
-            for (const Tree& argument : node->arguments) arguments.push_back(done_.at(argument.get()));
-            done_.emplace(node, combine(graph_, *node, arguments, binding_));
-            stack.pop_back();
-        }
-    }
-    return done_.at(tree.get());
+    return nodes_(tree, [this](const Tree& part, const std::vector<NodeId>& arguments) {
+        return combine(graph_, *part, arguments, binding_);
+    });
 }
 
 } // namespace lagen

@@ -2,14 +2,14 @@
 /// Closed trees to graph nodes and back.
 #pragma once
 
-#include "expression/tree.hpp"
+#include "expression/fold.hpp"
 #include "graph/core/graph.hpp"
 
 #include <map>
 
 namespace lagen {
 
-/// What names stand for while lowering. A name that is absent becomes (or is) the graph input of that name.
+/// The nodes that names stand for while lowering. A name that is absent becomes (or is) the graph input of that name.
 using Binding = std::map<std::string, NodeId>;
 
 /// Memoised by tree address, so shared definitions are lowered once.
@@ -22,8 +22,7 @@ class Lowering {
   private:
     Graph& graph_;
     Binding binding_;
-    std::map<const TreeNode*, NodeId> done_;
-    std::vector<Tree> alive_; ///< trees whose addresses are keys of done_
+    Fold<NodeId> nodes_;
 };
 
 /// A node as a tree (shared nodes become shared trees). Solve components are refused (InternalError).

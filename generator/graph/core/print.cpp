@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Nodes as text with the fewest parentheses. Shared parts are written out, so the text is cut at a limit.
+#include "expression/alphabet.hpp"
 #include "graph/core/operators.hpp"
 
 namespace lagen {
 namespace {
 
-/// What is still to be written: a fixed text, or a node in a place that binds with `precedence`.
+/// A piece still to be written: a fixed text, or a node in a place that binds with `precedence`.
 struct Piece {
     std::string text; ///< empty: the node is meant
     NodeId node = 0;
@@ -90,9 +91,7 @@ std::string to_text(const Graph& graph, NodeId id, std::size_t limit)
         stack.insert(stack.end(), pieces.rbegin(), pieces.rend());
     }
     if (text.size() <= limit) return text;
-    while (limit > 0 && (static_cast<unsigned char>(text[limit]) & 0xC0U) == 0x80U) --limit; // whole characters
-    text.resize(limit);
-    return text + "...";
+    return whole_characters(text, limit) + "...";
 }
 
 } // namespace lagen

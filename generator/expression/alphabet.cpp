@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The table of letters, after the general category of the Unicode Character Database (Lu, Ll, Lt, Lo).
-#include "expression/letters.hpp"
+/// Letters are those of the general category of the Unicode Character Database (Lu, Ll, Lt, Lo).
+#include "expression/alphabet.hpp"
+
+#include "diagnostic.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <span>
 
@@ -136,6 +139,26 @@ constexpr DottedLetter letters_of_two_dots[] = {{"a", "ä"}, {"e", "ë"}, {"h", 
                                                 {"H", "Ḧ"}, {"I", "Ï"}, {"O", "Ö"}, {"U", "Ü"}, {"W", "Ẅ"}, {"X", "Ẍ"},
                                                 {"Y", "Ÿ"}, {"ι", "ϊ"}, {"υ", "ϋ"}};
 
+constexpr std::array<std::string_view, 10> raised{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+constexpr std::array<std::string_view, 10> lowered{"₀", "₁", "₂", "₃", "₄", "₅", "₆", "₇", "₈", "₉"};
+
+// clang-format off
+constexpr GreekLetter greek[] = {
+    {"α", "alpha", "\\alpha"}, {"β", "beta", "\\beta"}, {"γ", "gamma", "\\gamma"}, {"δ", "delta", "\\delta"},
+    {"ε", "epsilon", "\\varepsilon"}, {"ζ", "zeta", "\\zeta"}, {"η", "eta", "\\eta"}, {"θ", "theta", "\\theta"},
+    {"ι", "iota", "\\iota"}, {"κ", "kappa", "\\kappa"}, {"λ", "lambda", "\\lambda"}, {"μ", "mu", "\\mu"},
+    {"ν", "nu", "\\nu"}, {"ξ", "xi", "\\xi"}, {"ο", "omicron", "o"}, {"π", "pi", "\\pi"}, {"ρ", "rho", "\\rho"},
+    {"σ", "sigma", "\\sigma"}, {"ς", "sigma", "\\varsigma"}, {"τ", "tau", "\\tau"}, {"υ", "upsilon", "\\upsilon"},
+    {"φ", "phi", "\\varphi"}, {"χ", "chi", "\\chi"}, {"ψ", "psi", "\\psi"}, {"ω", "omega", "\\omega"},
+    {"ϕ", "", "\\phi"}, {"ϑ", "", "\\vartheta"}, {"Α", "Alpha", ""}, {"Β", "Beta", ""}, {"Γ", "Gamma", "\\Gamma"},
+    {"Δ", "Delta", "\\Delta"}, {"Ε", "Epsilon", ""}, {"Ζ", "Zeta", ""}, {"Η", "Eta", ""},
+    {"Θ", "Theta", "\\Theta"}, {"Ι", "Iota", ""}, {"Κ", "Kappa", ""}, {"Λ", "Lambda", "\\Lambda"}, {"Μ", "Mu", ""},
+    {"Ν", "Nu", ""}, {"Ξ", "Xi", "\\Xi"}, {"Ο", "Omicron", ""}, {"Π", "Pi", "\\Pi"}, {"Ρ", "Rho", ""},
+    {"Σ", "Sigma", "\\Sigma"}, {"Τ", "Tau", ""}, {"Υ", "Upsilon", "\\Upsilon"}, {"Φ", "Phi", "\\Phi"},
+    {"Χ", "Chi", ""}, {"Ψ", "Psi", "\\Psi"}, {"Ω", "Omega", "\\Omega"},
+};
+// clang-format on
+
 constexpr std::string_view combining_dot = "\u0307", two_combining_dots = "\u0308";
 
 std::size_t first_letter_size(std::string_view name)
@@ -155,15 +178,29 @@ std::optional<std::string> without_accent(std::string_view name, std::span<const
 
 } // namespace
 
+std::string raised_digits(std::string_view text)
+{
+    std::string result;
+    for (const char c : text)
+        result += c == '-' ? "⁻" : is_digit(c) ? raised[static_cast<std::size_t>(c - '0')] : std::string_view(&c, 1);
+    return result;
+}
+
+std::string lowered_digits(std::string_view text)
+{
+    std::string result;
+    for (const char c : text)
+        result += is_digit(c) ? lowered[static_cast<std::size_t>(c - '0')] : std::string_view(&c, 1);
+    return result;
+}
+
 std::string with_plain_digits(std::string_view name)
 {
-    static constexpr std::string_view zero = "₀"; // the others follow
     std::string plain;
-    for (std::size_t k = 0; k < name.size(); ++k) {
-        const bool lowered = name.substr(k).starts_with(zero.substr(0, 2)) && k + 2 < name.size() &&
-                             name[k + 2] >= zero[2] && name[k + 2] - zero[2] <= 9;
-        plain += lowered ? static_cast<char>('0' + (name[k + 2] - zero[2])) : name[k];
-        if (lowered) k += 2;
+    for (std::size_t k = 0; k < name.size();) {
+        const auto digit = std::ranges::find_if(lowered, [&](auto each) { return name.substr(k).starts_with(each); });
+        plain += digit == lowered.end() ? name[k] : static_cast<char>('0' + (digit - lowered.begin()));
+        k += digit == lowered.end() ? 1 : digit->size();
     }
     return plain;
 }
@@ -192,6 +229,39 @@ bool is_letter(char32_t c)
     const Range* after = std::upper_bound(std::begin(letters), std::end(letters), c,
                                           [](char32_t value, const Range& range) { return value < range.first; });
     return after != std::begin(letters) && c <= std::prev(after)->last;
+}
+
+const GreekLetter* greek_letter_at(std::string_view text, std::size_t at)
+{
+    const auto found = std::ranges::find_if(
+        greek, [&](const GreekLetter& each) { return text.substr(at).starts_with(each.character); });
+    return found == std::end(greek) ? nullptr : found;
+}
+
+const GreekLetter* greek_letter_called(std::string_view name)
+{
+    const auto found = std::ranges::find_if(greek, [&](const GreekLetter& each) {
+        return each.latex.starts_with('\\') && (each.name == name || each.latex.substr(1) == name);
+    });
+    return found == std::end(greek) ? nullptr : found;
+}
+
+std::string whole_characters(std::string_view text, std::size_t size)
+{
+    if (text.size() <= size) return std::string(text);
+    while (size > 0 && !begins_character(text[size])) --size;
+    return std::string(text.substr(0, size));
+}
+
+std::size_t columns_of(std::string_view text)
+{
+    std::size_t columns = 0;
+    for (std::size_t at = 0; at < text.size();) {
+        const CodePoint point = decode_utf8(text, at);
+        if (!is_accent(point.value)) ++columns;
+        at += std::max<std::size_t>(point.length, 1);
+    }
+    return columns;
 }
 
 } // namespace lagen
