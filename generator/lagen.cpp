@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// main: options to a command, errors to standard error and an exit code. No mathematics.
-#include "activity.hpp"
 #include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
 #include "commands/machine/activity_watch.hpp"
 #include "commands/machine/write_file.hpp"
+#include "text/activity.hpp"
 
 #include <fmt/core.h>
 

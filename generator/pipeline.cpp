@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "pipeline.hpp"
 
-#include "activity.hpp"
-#include "content_hash.hpp"
 #include "elaborate/bind_parameters.hpp"
 #include "elaborate/make_frame.hpp"
 #include "emit/print_equations.hpp"
@@ -11,6 +9,8 @@
 #include "graph/core/lower.hpp"
 #include "graph/simplify/simplify.hpp"
 #include "model/scene_form.hpp"
+#include "text/activity.hpp"
+#include "text/content_hash.hpp"
 #include "verify/control_maximum.hpp"
 #include "verify/leaf.hpp"
 

@@ -2,7 +2,7 @@
 /// The outcome of `check` for people and for programs.
 #pragma once
 
-#include "diagnostic.hpp"
+#include "text/diagnostic.hpp"
 #include "text/record.hpp"
 #include "verify/verify.hpp"
 

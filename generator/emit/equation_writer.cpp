@@ -2,7 +2,7 @@
 #include "emit/equation_writer.hpp"
 
 #include "emit/text_block.hpp"
-#include "expression/alphabet.hpp"
+#include "text/alphabet.hpp"
 
 namespace lagen {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "emit/identifiers.hpp"
 
-#include "diagnostic.hpp"
-#include "expression/alphabet.hpp"
+#include "text/alphabet.hpp"
+#include "text/diagnostic.hpp"
 
 #include <fmt/format.h>
 

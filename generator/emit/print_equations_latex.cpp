@@ -2,8 +2,8 @@
 /// Equations as LaTeX (amsmath), and names as LaTeX symbols.
 #include "emit/equation_writer.hpp"
 #include "emit/print_equations.hpp"
-#include "expression/alphabet.hpp"
 #include "notation/latex_names.hpp"
+#include "text/alphabet.hpp"
 
 #include <algorithm>
 

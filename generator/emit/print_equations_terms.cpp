@@ -2,7 +2,7 @@
 /// Terms of a right side, and their lines.
 #include "emit/print_equations_terms.hpp"
 
-#include "expression/alphabet.hpp"
+#include "text/alphabet.hpp"
 
 #include <algorithm>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Equations as UTF-8 text: products by a space, powers raised, a dot over the letter of a name such as x or w1 and
 /// d/dt before any other.
-#include "diagnostic.hpp"
 #include "emit/equation_writer.hpp"
 #include "emit/print_equations.hpp"
 #include "emit/text_block.hpp"
-#include "expression/alphabet.hpp"
+#include "text/alphabet.hpp"
+#include "text/diagnostic.hpp"
 
 #include <fmt/core.h>
 

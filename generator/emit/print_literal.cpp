@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "emit/print_literal.hpp"
 
-#include "expression/alphabet.hpp"
+#include "text/alphabet.hpp"
 
 #include <fmt/format.h>
 #include <mpfr.h>

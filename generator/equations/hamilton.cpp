@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "equations/hamilton.hpp"
 
-#include "activity.hpp"
 #include "equations/given_blocks.hpp"
 #include "equations/legendre.hpp"
 #include "equations/poisson.hpp"
 #include "model/form.hpp"
+#include "text/activity.hpp"
 #include "verify/legendre_obstacle.hpp"
 
 namespace lagen {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "equations/lagrange.hpp"
 
-#include "activity.hpp"
 #include "equations/given_blocks.hpp"
 #include "expression/parse.hpp"
 #include "model/form.hpp"
 #include "symbolic/shortest_form.hpp"
+#include "text/activity.hpp"
 
 #include <fmt/core.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "equations/symbolic_model.hpp"
 
-#include "activity.hpp"
 #include "expression/rewrite.hpp"
 #include "model/total_cost.hpp"
 #include "notation/latex_names.hpp"
+#include "text/activity.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

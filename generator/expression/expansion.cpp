@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Closing trees: names to symbols, definitions to their closed bodies, within bounds.
-#include "expression/alphabet.hpp"
 #include "expression/closing.hpp"
 #include "expression/name_hints.hpp"
+#include "text/alphabet.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 /// Tokens of the expression language, exact numbers, and the hints for characters that look like an operator.
 #include "expression/lex.hpp"
 
-#include "expression/alphabet.hpp"
+#include "text/alphabet.hpp"
 
 #include <fmt/format.h>
 

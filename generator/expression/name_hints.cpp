@@ -2,8 +2,8 @@
 /// Hints for unknown names: other languages' spellings, slips of the hand, a short list.
 #include "expression/name_hints.hpp"
 
-#include "expression/alphabet.hpp"
 #include "expression/derivative.hpp"
+#include "text/alphabet.hpp"
 
 #include <fmt/format.h>
 

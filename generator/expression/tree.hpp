@@ -4,8 +4,8 @@
 /// trees memoises by address or it could take exponential time.
 #pragma once
 
-#include "diagnostic.hpp"
 #include "expression/functions.hpp"
+#include "text/diagnostic.hpp"
 
 #include <gmpxx.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "graph/kernel.hpp"
 
-#include "diagnostic.hpp"
 #include "graph/calculus/differentiate.hpp"
+#include "text/diagnostic.hpp"
 
 #include <fmt/format.h>
 

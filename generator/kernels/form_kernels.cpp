@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "kernels/form_kernels.hpp"
 
-#include "activity.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/calculus/limits.hpp"
 #include "graph/unknowns/tangent_size.hpp"
@@ -17,6 +16,7 @@
 #include "kernels/simplify_at.hpp"
 #include "model/carried_states.hpp"
 #include "model/scene_form.hpp"
+#include "text/activity.hpp"
 
 #include <fmt/format.h>
 

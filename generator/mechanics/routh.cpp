@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "mechanics/routh.hpp"
 
-#include "diagnostic.hpp"
 #include "graph/calculus/determinant.hpp"
 #include "graph/calculus/differentiate.hpp"
+#include "text/diagnostic.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -6,8 +6,8 @@
 /// terms that R has where L joins velocities of both sorts.           [Routh 1877; Marsden, Ratiu and Scheurle 2000]
 #pragma once
 
-#include "diagnostic.hpp"
 #include "mechanics/system.hpp"
+#include "text/diagnostic.hpp"
 
 namespace lagen {
 

@@ -2,7 +2,7 @@
 /// The content of a TOML string literal with the place of origin of every byte.
 #pragma once
 
-#include "diagnostic.hpp"
+#include "text/diagnostic.hpp"
 
 namespace lagen {
 

@@ -2,10 +2,10 @@
 /// Declarations and their clashes.
 #include "model/names.hpp"
 
-#include "expression/alphabet.hpp"
 #include "expression/parse.hpp"
 #include "expression/tree.hpp"
 #include "model/table_reader.hpp"
+#include "text/alphabet.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -2,8 +2,8 @@
 /// Everything that a model names, with the part that it plays and the place where it was declared.
 #pragma once
 
-#include "diagnostic.hpp"
 #include "expression/array.hpp"
+#include "text/diagnostic.hpp"
 
 #include <map>
 #include <string>

@@ -2,7 +2,7 @@
 /// Reading a file whole, with a bound.
 #include "model/read_file.hpp"
 
-#include "diagnostic.hpp"
+#include "text/diagnostic.hpp"
 
 #include <array>
 #include <cerrno>

@@ -2,7 +2,7 @@
 /// A bound on dotted keys, before the file is parsed.
 #pragma once
 
-#include "diagnostic.hpp"
+#include "text/diagnostic.hpp"
 
 #include <memory>
 

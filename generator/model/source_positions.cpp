@@ -2,7 +2,7 @@
 /// Lines, columns and UTF-8.
 #include "model/source_positions.hpp"
 
-#include "diagnostic.hpp"
+#include "text/diagnostic.hpp"
 
 #include <algorithm>
 

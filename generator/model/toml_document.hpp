@@ -3,7 +3,7 @@
 /// strings as excerpts that know where each of their bytes came from, and numbers still as text.
 #pragma once
 
-#include "diagnostic.hpp"
+#include "text/diagnostic.hpp"
 
 #include <string>
 #include <vector>

@@ -2,9 +2,9 @@
 /// LaTeX symbols from identifiers.
 #include "notation/latex_names.hpp"
 
-#include "diagnostic.hpp"
-#include "expression/alphabet.hpp"
 #include "expression/symbol.hpp"
+#include "text/alphabet.hpp"
+#include "text/diagnostic.hpp"
 
 #include <algorithm>
 #include <utility>

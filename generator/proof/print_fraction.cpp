@@ -2,7 +2,7 @@
 /// Texts of polynomials and fractions.
 #include "proof/print_fraction.hpp"
 
-#include "expression/alphabet.hpp"
+#include "text/alphabet.hpp"
 
 #include <algorithm>
 #include <string_view>

@@ -2,8 +2,8 @@
 /// Base constraints in triangular form: each solves for a coordinate of its own, linearly or as a monic power.
 #pragma once
 
-#include "diagnostic.hpp"
 #include "proof/normal_form.hpp"
+#include "text/diagnostic.hpp"
 
 namespace lagen::proof {
 

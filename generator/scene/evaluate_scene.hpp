@@ -2,10 +2,10 @@
 /// A scene in numbers: what a run starts from.
 #pragma once
 
-#include "diagnostic.hpp"
 #include "model/model.hpp"
 #include "scene/project_start.hpp"
 #include "scene/values.hpp"
+#include "text/diagnostic.hpp"
 
 #include <optional>
 #include <string>

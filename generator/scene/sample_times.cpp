@@ -2,8 +2,8 @@
 /// The interval first, then the rows in it.
 #include "scene/sample_times.hpp"
 
-#include "diagnostic.hpp"
 #include "model/scene_form.hpp"
+#include "text/diagnostic.hpp"
 
 #include <fmt/core.h>
 

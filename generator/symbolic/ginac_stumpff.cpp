@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "symbolic/ginac_stumpff.hpp"
 
-#include "diagnostic.hpp"
+#include "text/diagnostic.hpp"
 
 namespace lagen {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/cyclic.hpp"
 
-#include "activity.hpp"
 #include "graph/calculus/differentiate.hpp"
+#include "text/activity.hpp"
 #include "verify/judge.hpp"
 #include "verify/proof_setting.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The claims of a model, one kind after another, with names for people.
-#include "activity.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "proof/partial_parts.hpp"
+#include "text/activity.hpp"
 #include "verify/claims.hpp"
 #include "verify/construction.hpp"
 #include "verify/control_maximum.hpp"

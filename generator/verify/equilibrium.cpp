@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/equilibrium.hpp"
 
-#include "activity.hpp"
 #include "algebra/orthonormal_span.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/simplify/simplify.hpp"
 #include "proof/least_squares.hpp"
 #include "proof/rough_term.hpp"
 #include "proof/sloped_functions.hpp"
+#include "text/activity.hpp"
 #include "verify/augmented_energy.hpp"
 #include "verify/leaf.hpp"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/relative_equilibria.hpp"
 
-#include "activity.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/evaluate.hpp"
 #include "mechanics/symplectic.hpp"
 #include "proof/least_squares.hpp"
+#include "text/activity.hpp"
 #include "verify/augmented_energy.hpp"
 #include "verify/energy_momentum.hpp"
 #include "verify/find_invariants.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Every check that a system calls for, decided on one graph under one setting.
 #include "verify/verify.hpp"
-#include "activity.hpp"
+#include "text/activity.hpp"
 #include "verify/claims.hpp"
 
 namespace lagen {

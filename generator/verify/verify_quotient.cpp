@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/verify_quotient.hpp"
 
-#include "activity.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/calculus/transplant.hpp"
 #include "mechanics/routh.hpp"
 #include "mechanics/symmetry.hpp"
+#include "text/activity.hpp"
 #include "verify/arrow_decider.hpp"
 #include "verify/judge.hpp"
 #include "verify/proof_setting.hpp"

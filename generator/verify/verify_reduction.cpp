@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/verify_reduction.hpp"
 
-#include "activity.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "mechanics/discrete.hpp"
 #include "mechanics/hamilton.hpp"
 #include "mechanics/pontryagin.hpp"
 #include "mechanics/variations.hpp"
+#include "text/activity.hpp"
 #include "verify/carried_distribution.hpp"
 #include "verify/fibre_rank.hpp"
 

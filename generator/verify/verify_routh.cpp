@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/verify_routh.hpp"
 
-#include "activity.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/calculus/transplant.hpp"
 #include "graph/core/lower.hpp"
+#include "text/activity.hpp"
 #include "verify/at_values.hpp"
 #include "verify/judge.hpp"
 #include "verify/proof_setting.hpp"

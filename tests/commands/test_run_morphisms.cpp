@@ -4,9 +4,9 @@
 #include "program.hpp"
 
 #include "commands/morphism/covector.hpp"
-#include "diagnostic.hpp"
 #include "support/golden.hpp"
 #include "support/json.hpp"
+#include "text/diagnostic.hpp"
 
 #include <catch2/catch.hpp>
 

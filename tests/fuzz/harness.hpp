@@ -4,7 +4,7 @@
 /// everything else that is thrown, a broken law and a sanitizer's report end the process.
 #pragma once
 
-#include "diagnostic.hpp"
+#include "text/diagnostic.hpp"
 
 #include <cstdint>
 #include <string>

@@ -75,22 +75,21 @@ std::string room_of(const std::string& path)
     if (names.size() > 2) return names[1];
     const std::string stem = parts.stem().string();
     if (stem == "lagen") return "commands";
-    return stem == "content_hash" || stem == "activity" ? "diagnostic" : stem;
+    return stem;
 }
 
 const Arrows& planned_arrows()
 {
     static const Arrows arrows{
-        {"diagnostic", {}},
-        {"expression", {"diagnostic"}},
+        {"text", {}},
+        {"expression", {"text"}},
         {"algebra", {"expression"}},
         {"model", {"algebra"}},
         {"symbolic", {"expression"}},
         {"graph", {"expression"}},
         {"proof", {"graph"}},
         {"notation", {"expression"}},
-        {"text", {}},
-        {"emit", {"graph", "notation", "text"}},
+        {"emit", {"graph", "notation"}},
         {"algebroid", {"algebra", "graph"}},
         {"groupoid", {"algebroid"}},
         {"mechanics", {"groupoid"}},

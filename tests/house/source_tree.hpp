@@ -30,7 +30,7 @@ struct SourceText {
 [[nodiscard]] std::vector<Include> includes_of(const SourceText& text);
 
 /// "generator/graph/graph.hpp" is in room "graph", "generator/pipeline.cpp" in "pipeline", "generator/lagen.cpp" in
-/// "commands", "runtime/..." in "runtime"; diagnostic.* and content_hash.* are in "diagnostic", under every room.
+/// "commands", "runtime/..." in "runtime".
 [[nodiscard]] std::string room_of(const std::string& path);
 
 /// A room and the rooms that it may include directly.

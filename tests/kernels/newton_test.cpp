@@ -3,7 +3,7 @@
 /// singularity, and where there is no root.
 #include "graph/unknowns/solve_unknowns.hpp"
 
-#include "diagnostic.hpp"
+#include "text/diagnostic.hpp"
 
 #include <catch2/catch.hpp>
 

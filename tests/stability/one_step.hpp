@@ -4,8 +4,8 @@
 ///   x'' = -omega^2 x:  (x1, h v1) = M(u) (x, h v), u = (h omega)^2, of methods that treat x and v differently.
 #pragma once
 
-#include "diagnostic.hpp"
 #include "stability/polynomial.hpp"
+#include "text/diagnostic.hpp"
 
 #include "lagen/integrate/collocation.hpp"
 #include "lagen/integrate/stages.hpp"

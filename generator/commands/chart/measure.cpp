@@ -2,8 +2,8 @@
 #include "commands/chart/measure.hpp"
 
 #include "commands/machine/write_file.hpp"
-#include "diagnostic.hpp"
 #include "lagen_run/archive.hpp"
+#include "text/diagnostic.hpp"
 
 #include <fmt/core.h>
 

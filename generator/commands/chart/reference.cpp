@@ -3,9 +3,9 @@
 
 #include "commands/scene/methods.hpp"
 #include "commands/scene/scene_program.hpp"
-#include "diagnostic.hpp"
 #include "emit/print_header.hpp"
 #include "lagen_run/archive.hpp"
+#include "text/diagnostic.hpp"
 
 #include <fmt/core.h>
 

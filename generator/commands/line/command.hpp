@@ -3,7 +3,7 @@
 /// and everything else to standard error, and answers an exit code.
 #pragma once
 
-#include "diagnostic.hpp"
+#include "text/diagnostic.hpp"
 
 #include <span>
 #include <string>

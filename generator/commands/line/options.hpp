@@ -2,8 +2,8 @@
 /// Command-line options: a thin wrapper that keeps Boost.Program_options out of every other file.
 #pragma once
 
-#include "diagnostic.hpp"
 #include "model/morphism.hpp"
+#include "text/diagnostic.hpp"
 
 #include <initializer_list>
 #include <map>

@@ -2,8 +2,8 @@
 /// A thread that wakes now and then: a single decision may take minutes, in which nobody else could write.
 #include "commands/machine/activity_watch.hpp"
 
-#include "activity.hpp"
-#include "expression/alphabet.hpp"
+#include "text/activity.hpp"
+#include "text/alphabet.hpp"
 
 #include <fmt/format.h>
 

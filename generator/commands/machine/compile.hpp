@@ -2,7 +2,7 @@
 /// Compiling a scene's program with the system compiler, cached by content.
 #pragma once
 
-#include "content_hash.hpp"
+#include "text/content_hash.hpp"
 
 #include <string>
 #include <string_view>

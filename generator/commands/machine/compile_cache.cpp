@@ -3,8 +3,8 @@
 #include "commands/machine/compile_cache.hpp"
 
 #include "commands/machine/write_file.hpp"
-#include "content_hash.hpp"
-#include "diagnostic.hpp"
+#include "text/content_hash.hpp"
+#include "text/diagnostic.hpp"
 
 #include <fmt/core.h>
 

@@ -4,7 +4,7 @@
 #include "commands/machine/process.hpp"
 #include "commands/machine/temporary_folder.hpp"
 #include "commands/machine/write_file.hpp"
-#include "diagnostic.hpp"
+#include "text/diagnostic.hpp"
 
 #include <fmt/core.h>
 

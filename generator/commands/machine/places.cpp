@@ -3,7 +3,7 @@
 
 #include "commands/machine/temporary_folder.hpp"
 #include "commands/machine/write_file.hpp"
-#include "diagnostic.hpp"
+#include "text/diagnostic.hpp"
 
 #include <fmt/core.h>
 

@@ -2,7 +2,7 @@
 #include "commands/machine/precompiled_header.hpp"
 
 #include "commands/machine/write_file.hpp"
-#include "diagnostic.hpp"
+#include "text/diagnostic.hpp"
 
 #include <fmt/core.h>
 

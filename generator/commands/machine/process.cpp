@@ -2,7 +2,7 @@
 #include "commands/machine/process.hpp"
 
 #include "commands/machine/temporary_folder.hpp"
-#include "diagnostic.hpp"
+#include "text/diagnostic.hpp"
 
 #include <fmt/core.h>
 

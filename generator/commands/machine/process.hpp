@@ -2,7 +2,7 @@
 /// Child processes: no shell in between, so that no name or path is ever interpreted.
 #pragma once
 
-#include "diagnostic.hpp"
+#include "text/diagnostic.hpp"
 
 #include <cstddef>
 #include <functional>

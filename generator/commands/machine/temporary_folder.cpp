@@ -2,7 +2,7 @@
 /// Making and removing a temporary folder with interrupts held back.
 #include "commands/machine/temporary_folder.hpp"
 
-#include "diagnostic.hpp"
+#include "text/diagnostic.hpp"
 
 #include <fmt/core.h>
 

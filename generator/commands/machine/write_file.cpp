@@ -2,7 +2,7 @@
 #include "commands/machine/write_file.hpp"
 
 #include "commands/machine/activity_watch.hpp"
-#include "diagnostic.hpp"
+#include "text/diagnostic.hpp"
 
 #include <fmt/core.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/morphism/defect.hpp"
 
-#include "diagnostic.hpp"
+#include "text/diagnostic.hpp"
 
 #include <fmt/core.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/plot/labels.hpp"
 
-#include "expression/alphabet.hpp"
 #include "model/families.hpp"
+#include "text/alphabet.hpp"
 
 #include <fmt/core.h>
 

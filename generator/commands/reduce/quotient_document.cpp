@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/reduce/quotient_document.hpp"
 
-#include "diagnostic.hpp"
 #include "expression/rewrite.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/lower.hpp"
 #include "model/families.hpp"
 #include "model/plain_names.hpp"
+#include "text/diagnostic.hpp"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/reduce/reduced_document.hpp"
 
-#include "diagnostic.hpp"
 #include "expression/parse.hpp"
+#include "text/diagnostic.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

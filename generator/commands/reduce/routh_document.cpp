@@ -3,8 +3,8 @@
 
 #include "commands/line/options.hpp"
 #include "commands/reduce/reduced_document.hpp"
-#include "diagnostic.hpp"
 #include "expression/rewrite.hpp"
+#include "text/diagnostic.hpp"
 
 #include <algorithm>
 #include <filesystem>

@@ -6,9 +6,9 @@
 #include "commands/machine/progress.hpp"
 #include "commands/machine/temporary_folder.hpp"
 #include "commands/machine/write_file.hpp"
-#include "diagnostic.hpp"
 #include "lagen_run/archive.hpp"
 #include "methods/integrate_compiled.hpp"
+#include "text/diagnostic.hpp"
 
 #include <fmt/core.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/scene/preparation.hpp"
 
-#include "content_hash.hpp"
 #include "mechanics/quadrature.hpp"
 #include "methods/integrate_compiled.hpp"
 #include "model/form.hpp"
+#include "text/content_hash.hpp"
 #include "verify/self_adjoint.hpp"
 
 #include <fmt/core.h>

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "commands/scene/scene_program.hpp"
-#include "content_hash.hpp"
 #include "pipeline.hpp"
+#include "text/content_hash.hpp"
 
 #include <optional>
 #include <string>

@@ -2,9 +2,9 @@
 #include "commands/scene/scene_program.hpp"
 
 #include "commands/scene/scene_options.hpp"
-#include "diagnostic.hpp"
 #include "emit/print_header.hpp"
 #include "model/scene_form.hpp"
+#include "text/diagnostic.hpp"
 
 #include <fmt/core.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/scene/start_state.hpp"
 
-#include "diagnostic.hpp"
 #include "graph/core/evaluate.hpp"
 #include "graph/unknowns/solve_unknowns.hpp"
 #include "mechanics/hamilton.hpp"
 #include "model/form.hpp"
+#include "text/diagnostic.hpp"
 
 #include <fmt/core.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The file of --ensemble: RFC 4180, read line by line, so that it may be larger than the memory.
 #include "commands/sweep/sweep_rows.hpp"
-#include "content_hash.hpp"
 #include "model/families.hpp"
 #include "model/plain_names.hpp"
+#include "text/content_hash.hpp"
 
 #include <fmt/core.h>
 

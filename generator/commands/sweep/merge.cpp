@@ -2,7 +2,7 @@
 /// Row k of the whole is row k / n of part k mod n, so that one line of each part is held at a time.
 #include "commands/line/options.hpp"
 #include "commands/sweep/sweep_file.hpp"
-#include "diagnostic.hpp"
+#include "text/diagnostic.hpp"
 
 #include <fmt/core.h>
 

@@ -3,7 +3,7 @@
 
 #include "commands/machine/write_file.hpp"
 #include "commands/sweep/sweep_rows.hpp"
-#include "diagnostic.hpp"
+#include "text/diagnostic.hpp"
 
 #include <fmt/core.h>
 

@@ -6,10 +6,10 @@
 #include "commands/machine/write_file.hpp"
 #include "commands/scene/run_report.hpp"
 #include "commands/sweep/sweep_rows.hpp"
-#include "diagnostic.hpp"
 #include "lagen_run/archive.hpp"
 #include "model/families.hpp"
 #include "model/plain_names.hpp"
+#include "text/diagnostic.hpp"
 
 #include <fmt/core.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Nodes as text with the fewest parentheses. Shared parts are written out, so the text is cut at a limit.
-#include "expression/alphabet.hpp"
 #include "graph/core/operators.hpp"
+#include "text/alphabet.hpp"
 
 namespace lagen {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "graph/core/evaluate.hpp"
 
-#include "diagnostic.hpp"
+#include "text/diagnostic.hpp"
 
 #include <algorithm>
 #include <cmath>

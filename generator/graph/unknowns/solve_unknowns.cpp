@@ -5,7 +5,7 @@
 #include "graph/core/evaluate.hpp"
 #include "graph/unknowns/solve_in_brackets.hpp"
 
-#include "diagnostic.hpp"
+#include "text/diagnostic.hpp"
 
 #include <algorithm>
 #include <cmath>

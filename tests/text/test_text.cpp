@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// UTF-8 and the search for the name that was meant.
-#include "activity.hpp"
-#include "diagnostic.hpp"
+#include "text/activity.hpp"
+#include "text/diagnostic.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// How a diagnostic looks, to the character.
-#include "diagnostic.hpp"
+#include "text/diagnostic.hpp"
 
 #include <catch2/catch.hpp>
 

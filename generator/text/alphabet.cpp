@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Letters are those of the general category of the Unicode Character Database (Lu, Ll, Lt, Lo).
-#include "expression/alphabet.hpp"
+#include "text/alphabet.hpp"
 
-#include "diagnostic.hpp"
+#include "text/diagnostic.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "activity.hpp"
+#include "text/activity.hpp"
 
 #include <fmt/format.h>
 

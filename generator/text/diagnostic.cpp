@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Rendering of diagnostics, UTF-8 decoding, and the search for the name that was meant.
-#include "diagnostic.hpp"
+#include "text/diagnostic.hpp"
 
 #include <fmt/format.h>
 
