@@ -256,6 +256,33 @@ TEST_CASE("a damaged program or record in the cache is made again")
     is_mended(true);
 }
 
+TEST_CASE("models share what the compiler has read of their headers, and do without it where that is damaged", "[run]")
+{
+    // By clang, which asks for every file that it read.
+    const std::string cache = fresh_folder();
+    const auto run = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), {"run", "oscillator.toml", "--at", "1", "--no-second-run"});
+        return call(options, {.environment = {{"CXX", "clang++"}, {"CXXFLAGS", "-O0"}, {"LAGEN_CACHE", cache}}});
+    };
+    const auto named = [&](const char* ending) {
+        for (const std::string& name : names_in(cache))
+            if (name.ends_with(ending)) return cache + "/" + name;
+        return std::string();
+    };
+    const Outcome first = run({});
+    CHECK(first.code == 0);
+    REQUIRE(!named(".hpp.gch").empty());
+    CHECK(run({"--form", "hamilton"}).code == 0);
+    CHECK(!named(".hpp").empty());
+    write_text(named(".hpp.gch"), std::string(fs::file_size(named(".hpp.gch")), 'x'));
+    const Outcome damaged = run({"--method", "radau5"});
+    INFO(damaged.err);
+    CHECK(damaged.code == 0);
+    CHECK(named(".hpp").empty());
+    CHECK(run({"--method", "taylor"}).code == 0);
+    CHECK(!named(".hpp").empty());
+}
+
 TEST_CASE("the cache forgets what was used longest ago")
 {
     const std::string cache = fresh_folder();

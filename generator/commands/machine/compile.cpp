@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <sstream>
 #include <sys/utsname.h>
 #include <thread>
@@ -243,15 +244,18 @@ std::vector<std::string> compile_programs(const std::vector<ProgramText>& progra
     if (missing.size() > 1) write_standard_error(fmt::format("compiling {} programs\n", missing.size()));
     const TemporaryFolder scratch(cache, "build");
     std::vector<std::vector<std::string>> commands;
-    std::vector<PrecompiledHeader> made; // by the commands behind those of the programs
+    std::vector<std::optional<PrecompiledHeader>> used; // by these commands
+    std::vector<PrecompiledHeader> made;                // by the commands behind those of the programs
     std::vector<std::vector<std::string>> making;
     for (const std::size_t k : missing) {
         std::vector<std::string> further;
+        used.emplace_back();
         if (programs[k].is_model && made.empty()) {
             const std::vector<std::string> command = command_of(programs[k]);
             const PrecompiledHeader header = precompiled_header(cache, command);
             if (header.is_ready()) {
                 further = header.arguments();
+                used.back() = header;
             } else { // beside the first model, which does without it
                 made.push_back(header);
                 making.push_back(command);
@@ -262,8 +266,14 @@ std::vector<std::string> compile_programs(const std::vector<ProgramText>& progra
     }
     std::vector<std::vector<std::string>> all = commands;
     all.insert(all.end(), making.begin(), making.end());
-    const std::vector<ProcessResult> results = run_processes(all, std::thread::hardware_concurrency());
+    std::vector<ProcessResult> results = run_processes(all, std::thread::hardware_concurrency());
     for (std::size_t k = 0; k < missing.size(); ++k) {
+        if (used[k] && results[k].exit_code != 0 &&
+            !results[k].interrupted) { // it may be the precompiled header's fault
+            commands[k] = command_in(scratch.file(std::to_string(missing[k])), programs[missing[k]], {});
+            results[k] = run_process(commands[k]);
+            if (results[k].exit_code == 0) used[k]->discard();
+        }
         require_success(commands[k], results[k]);
         keep_program(scratch.file(std::to_string(missing[k])) + "/program", paths[missing[k]]);
     }

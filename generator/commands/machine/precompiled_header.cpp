@@ -16,12 +16,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* included = "#include \"lagen/export_model.hpp\"\n";
+constexpr const char* precompiled = "lagen/export_model.hpp";
 
 /// KEY.hpp beside a precompiled header of this length.
 std::string text_beside(std::uintmax_t length)
 {
-    return fmt::format("// precompiled in {} bytes\n{}", length, included);
+    return fmt::format("// precompiled in {} bytes\n#include \"{}\"\n", length, precompiled);
 }
 
 } // namespace
@@ -50,8 +50,8 @@ std::vector<std::string> PrecompiledHeader::arguments() const
 
 std::vector<std::string> PrecompiledHeader::making(const std::string& scratch) const
 {
-    write_file(scratch + "/precompiled.hpp", included);
-    return {"-x", "c++-header", scratch + "/precompiled.hpp", "-o", scratch + "/precompiled.gch"};
+    // clang asks for the file that was read to be where it was: an empty one that every system has.
+    return {"-include", precompiled, "-x", "c++-header", "/dev/null", "-o", scratch + "/precompiled.gch"};
 }
 
 void PrecompiledHeader::keep(const std::string& scratch) const
@@ -62,6 +62,12 @@ try {
     if (!error) write_file(header_, text_beside(length));
 } catch (const MachineError&) {
     // The next command makes it again.
+}
+
+void PrecompiledHeader::discard() const
+{
+    std::error_code error;
+    fs::remove(header_, error);
 }
 
 } // namespace lagen

@@ -23,6 +23,8 @@ class PrecompiledHeader {
     [[nodiscard]] std::vector<std::string> making(const std::string& scratch) const;
     /// Keeps what was made there; a failure is none of the command's.
     void keep(const std::string& scratch) const;
+    /// It is not ready any more: the compiler did not take it.
+    void discard() const;
 
   private:
     std::string header_; ///< the path of KEY.hpp
