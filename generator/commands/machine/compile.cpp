@@ -244,41 +244,36 @@ std::vector<std::string> compile_programs(const std::vector<ProgramText>& progra
     if (missing.size() > 1) write_standard_error(fmt::format("compiling {} programs\n", missing.size()));
     const TemporaryFolder scratch(cache, "build");
     std::vector<std::vector<std::string>> commands;
-    std::vector<std::optional<PrecompiledHeader>> used; // by these commands
-    std::vector<PrecompiledHeader> made;                // by the commands behind those of the programs
-    std::vector<std::vector<std::string>> making;
+    std::optional<PrecompiledHeader> header; // of the models, which are compiled by one command
+    std::vector<std::string> making;         // makes it beside the models, which do without it then
     for (const std::size_t k : missing) {
-        std::vector<std::string> further;
-        used.emplace_back();
-        if (programs[k].is_model && made.empty()) {
+        if (programs[k].is_model && !header) {
             const std::vector<std::string> command = command_of(programs[k]);
-            const PrecompiledHeader header = precompiled_header(cache, command);
-            if (header.is_ready()) {
-                further = header.arguments();
-                used.back() = header;
-            } else { // beside the first model, which does without it
-                made.push_back(header);
-                making.push_back(command);
-                for (const std::string& argument : header.making(scratch.file(""))) making.back().push_back(argument);
+            header = precompiled_header(cache, command);
+            if (!header->is_ready()) {
+                making = command;
+                for (const std::string& argument : header->making(scratch.file(""))) making.push_back(argument);
             }
         }
-        commands.push_back(command_in(scratch.file(std::to_string(k)), programs[k], further));
+        commands.push_back(
+            command_in(scratch.file(std::to_string(k)), programs[k],
+                       programs[k].is_model && making.empty() ? header->arguments() : std::vector<std::string>{}));
     }
     std::vector<std::vector<std::string>> all = commands;
-    all.insert(all.end(), making.begin(), making.end());
+    if (!making.empty()) all.push_back(making);
     std::vector<ProcessResult> results = run_processes(all, std::thread::hardware_concurrency());
     for (std::size_t k = 0; k < missing.size(); ++k) {
-        if (used[k] && results[k].exit_code != 0 &&
-            !results[k].interrupted) { // it may be the precompiled header's fault
-            commands[k] = command_in(scratch.file(std::to_string(missing[k])), programs[missing[k]], {});
+        const ProgramText& program = programs[missing[k]];
+        const std::string folder = scratch.file(std::to_string(missing[k]));
+        if (program.is_model && making.empty() && results[k].exit_code != 0 && !results[k].interrupted) {
+            commands[k] = command_in(folder, program, {}); // it may be the precompiled header's fault
             results[k] = run_process(commands[k]);
-            if (results[k].exit_code == 0) used[k]->discard();
+            if (results[k].exit_code == 0) header->discard();
         }
         require_success(commands[k], results[k]);
-        keep_program(scratch.file(std::to_string(missing[k])) + "/program", paths[missing[k]]);
+        keep_program(folder + "/program", paths[missing[k]]);
     }
-    for (std::size_t k = 0; k < made.size(); ++k)
-        if (results[missing.size() + k].exit_code == 0) made[k].keep(scratch.file(""));
+    if (!making.empty() && results.back().exit_code == 0) header->keep(scratch.file(""));
     trim_cache(cache);
     return paths;
 }
