@@ -73,7 +73,11 @@ ExitCode dispatch(const std::vector<std::string>& arguments)
         if (arguments[0] == entry.name) {
             std::optional<Activity> activity;
             if (!entry.follows_itself) activity.emplace(entry.name);
-            return entry.run(Arguments(arguments).subspan(1));
+            try {
+                return entry.run(Arguments(arguments).subspan(1));
+            } catch (const UsageError& error) {
+                throw UsageError(fmt::format("lagen {}: {}", entry.name, error.what()));
+            }
         }
         names.emplace_back(entry.name);
     }

@@ -49,25 +49,25 @@ std::vector<const MethodEntry*> wanted_methods(const Options& options)
     for (const std::string& name : split_list(options.get("methods"))) {
         wanted.push_back(find_method(name));
         if (wanted.back() != nullptr) continue;
-        throw UsageError(fmt::format("lagen chart: unknown method '{}'\nhint: {}", name, hint_for_method(name)));
+        throw UsageError(fmt::format("unknown method '{}'", name), hint_for_method(name));
     }
     if (options.has("methods") && wanted.empty())
-        throw UsageError("lagen chart: --methods needs at least one method, e.g. --methods dop853,taylor");
+        throw UsageError("--methods needs at least one method, e.g. --methods dop853,taylor");
     return wanted;
 }
 
 void require_together(const Options& options)
 {
-    if (options.has("over") && !options.has("stability")) throw UsageError("lagen chart: --over needs --stability");
+    if (options.has("over") && !options.has("stability")) throw UsageError("--over needs --stability");
     if (options.has("peers") && options.has("stability"))
-        throw UsageError("lagen chart: --peers and --stability exclude each other");
+        throw UsageError("--peers and --stability exclude each other");
 }
 
 void make_folder(const std::string& folder)
 {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
-    if (error) throw MachineError(fmt::format("error: cannot make the folder '{}': {}", folder, error.message()));
+    if (error) throw MachineError(fmt::format("cannot make the folder '{}': {}", folder, error.message()));
 }
 
 /// Warns of what the model's proofs leave open.

@@ -73,7 +73,7 @@ Answer check_model(const Model& model, const Options& options)
 Answer check_morphism(const MorphismFile& file, const Options& options)
 {
     if (options.has("invariant"))
-        throw UsageError("lagen check: --invariant is of a model, and " + quote(file.file->name) + " is a morphism");
+        throw UsageError("--invariant is of a model, and " + quote(file.file->name) + " is a morphism");
     const VerifiedMorphism verified = verify_morphism(file);
     return {code_of(verdict_of(verified)), morphism_text(verified), record_of(verified)};
 }

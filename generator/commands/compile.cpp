@@ -36,9 +36,8 @@ void require_rates(const Options& options, const Model& model, const std::string
     if (!form_named(form).steps) return;
     const std::string found = fmt::format(
         "the {} form of model '{}' makes steps, and a compiled model is a right-hand side", form, model.name);
-    if (options.has("form")) throw UsageError("lagen compile: " + found);
-    throw UsageError(
-        fmt::format("lagen compile: {}\nhint: `lagen generate` writes its header; --form takes another form", found));
+    if (options.has("form")) throw UsageError(found);
+    throw UsageError(found, "`lagen generate` writes its header; --form takes another form");
 }
 
 } // namespace
@@ -47,7 +46,7 @@ ExitCode run_compile(Arguments arguments)
 {
     const Options options(compile_syntax, arguments);
     if (options.help()) return ExitCode::done;
-    if (!options.has("output")) throw UsageError("lagen compile: the shared object needs a name: -o FILE.so");
+    if (!options.has("output")) throw UsageError("the shared object needs a name: -o FILE.so");
     if (options.has("form")) (void)options.choice("form", form_names());
     const CheckedModel checked =
         load(model_path(options.positional()[0]), options.settings(), options.has("unchecked"));

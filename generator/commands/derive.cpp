@@ -73,8 +73,8 @@ std::string marked(const std::string& text, const std::string& format, const std
 std::vector<Tree> bracket_functions(const Options& options, const Model& model, const std::string& form)
 {
     const std::vector<std::string> texts = options.all("bracket");
-    if (!texts.empty() && form != "poisson") throw UsageError("lagen derive: --bracket goes with --form poisson");
-    if (texts.size() % 2 != 0) throw UsageError("lagen derive: --bracket is given twice, for F and G of {F, G}");
+    if (!texts.empty() && form != "poisson") throw UsageError("--bracket goes with --form poisson");
+    if (texts.size() % 2 != 0) throw UsageError("--bracket is given twice, for F and G of {F, G}");
     std::vector<Tree> functions;
     for (const std::string& text : texts) {
         const Excerpt excerpt = whole_text("<--bracket>", text);
@@ -110,8 +110,8 @@ ExitCode run_derive(Arguments arguments)
     const Options options(derive_syntax, arguments);
     if (options.help()) return ExitCode::done;
     if (options.get("format") == "sympy")
-        throw UsageError(fmt::format("lagen derive: --format is 'sympy', it must be one of text, latex, json\nhint: "
-                                     "lagen.equations(\"{}\") in Python gives them in SymPy (docs/python.md)",
+        throw UsageError("--format is 'sympy', it must be one of text, latex, json",
+                         fmt::format("lagen.equations(\"{}\") in Python gives them in SymPy (docs/python.md)",
                                      options.positional()[0]));
     const std::string format = options.choice("format", {"text", "latex", "json"});
     if (options.has("form")) (void)options.choice("form", derivation_names());

@@ -92,7 +92,7 @@ ExitCode run_generate(Arguments arguments)
     if (options.help()) return ExitCode::done;
     const bool as_json = options.as_json();
     if (options.has("form")) (void)options.choice("form", form_names());
-    if (options.has("depfile") && !options.has("output")) throw UsageError("lagen generate: --depfile needs --output");
+    if (options.has("depfile") && !options.has("output")) throw UsageError("--depfile needs --output");
     const std::string model = model_path(options.positional()[0]);
     const CheckedModel checked = load(model, options.settings(), options.has("unchecked"));
     require_apart(options, checked.model);
@@ -104,7 +104,7 @@ ExitCode run_generate(Arguments arguments)
     request.form = options.get("form");
     request.only = split_list(options.get("only"));
     if (options.has("only") && request.only.empty())
-        throw UsageError("lagen generate: --only names no kernel (see lagen generate --help)");
+        throw UsageError("--only names no kernel (see lagen generate --help)");
     request.with = split_list(options.get("with"));
     request.time_scale = time_scale_of(options, checked.model);
     const std::string output = options.has("output") ? options.get("output") : "-";

@@ -50,8 +50,7 @@ ExitCode run_models(Arguments arguments)
     if (options.help()) return ExitCode::done;
     const bool as_json = options.as_json();
     const std::string folder = models_folder();
-    if (folder.empty())
-        throw MachineError("error: the example models were not found\nhint: set LAGEN_MODELS to their folder");
+    if (folder.empty()) throw MachineError("the example models were not found", "set LAGEN_MODELS to their folder");
     Record records = Record::array();
     std::vector<Model> models;
     std::size_t longest = 0;

@@ -61,9 +61,8 @@ ExitCode run_new(Arguments arguments)
     require_class_name(name, whole_text("<NAME>", name).range(0, name.size()), false);
     const fs::path folder = fs::path(models_folder()) / "new", parts = folder / kind;
     if (!fs::exists(folder))
-        throw MachineError(
-            "error: the models to start from were not found\nhint: set LAGEN_MODELS to the folder of the "
-            "example models, which has them in new/");
+        throw MachineError("the models to start from were not found",
+                           "set LAGEN_MODELS to the folder of the example models, which has them in new/");
     std::vector<std::pair<std::string, std::string>> files{
         {name + ".toml", first_lines(name, kind) + filled(folder / (kind + ".toml"), name)}};
     if (fs::exists(parts))
@@ -72,7 +71,7 @@ ExitCode run_new(Arguments arguments)
     std::sort(files.begin(), files.end());
     for (const auto& [file, text] : files)
         if (std::error_code ignored; fs::exists(fs::symlink_status(file, ignored)))
-            throw UsageError(fmt::format("lagen new: '{}' is there already, and is not overwritten", file));
+            throw UsageError(fmt::format("'{}' is there already, and is not overwritten", file));
     std::string told;
     for (const auto& [file, text] : files) {
         write_file(file, text);

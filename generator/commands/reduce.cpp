@@ -215,8 +215,7 @@ ExitCode reduce_by_routh(const Options& options, const std::string& path)
 /// L likewise.
 ExitCode reduce_by_group(const Options& options, const std::string& path)
 {
-    if (!options.has("action"))
-        throw UsageError("lagen reduce: --group needs --action, how an element W moves the coordinates");
+    if (!options.has("action")) throw UsageError("--group needs --action, how an element W moves the coordinates");
     const CheckedModel checked = load(path, options.settings(), options.has("unchecked"));
     require_apart(options, checked.model);
     warn(checked.warnings);
@@ -274,14 +273,13 @@ ExitCode run_reduce(Arguments arguments)
     const std::string path = model_path(options.positional()[0]);
     const auto file = std::make_shared<const SourceFile>(SourceFile{path, read_file(path)});
     for (const char* other : {"action", "slice"})
-        if (options.has(other) && !options.has("group"))
-            throw UsageError(fmt::format("lagen reduce: --{} goes with --group", other));
+        if (options.has(other) && !options.has("group")) throw UsageError(fmt::format("--{} goes with --group", other));
     if (options.has("routh") && options.has("group"))
-        throw UsageError("lagen reduce: --routh and --group are two reductions: one after the other");
+        throw UsageError("--routh and --group are two reductions: one after the other");
     if (is_morphism(file)) {
         for (const char* of_models : {"routh", "group"})
             if (options.has(of_models))
-                throw UsageError(fmt::format("lagen reduce: --{} takes a model, and this is a morphism", of_models));
+                throw UsageError(fmt::format("--{} takes a model, and this is a morphism", of_models));
         return reduce_morphism(options, read_morphism(file, options.settings(), choosers()));
     }
     if (options.has("routh")) return reduce_by_routh(options, path);

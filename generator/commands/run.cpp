@@ -97,15 +97,16 @@ std::uint64_t branch_of(const Options& options, const Scene& scene, const SceneV
 {
     const std::uint64_t branch = whole_option(options, "branch", 1);
     if (!values.discrete)
-        throw UsageError(fmt::format(
-            "lagen run: --branch counts the first arrows of a discrete motion, and scene '{}' is run in the form "
-            "'{}'\nhint: --form discrete, or a variational method: --method variational4",
-            scene.name, scene.form));
+        throw UsageError(
+            fmt::format("--branch counts the first arrows of a discrete motion, and scene '{}' is run in the form '{}'",
+                        scene.name, scene.form),
+            "--form discrete, or a variational method: --method variational4");
     if (starts_from_arrow(values))
-        throw UsageError(fmt::format(
-            "lagen run: --branch counts the arrows that have the momenta of the start, and scene '{}' starts from an "
-            "arrow\nhint: give the momenta in 'initial', or in 'element' and 'next' the arrow of that branch",
-            scene.name));
+        throw UsageError(
+            fmt::format(
+                "--branch counts the arrows that have the momenta of the start, and scene '{}' starts from an arrow",
+                scene.name),
+            "give the momenta in 'initial', or in 'element' and 'next' the arrow of that branch");
     return branch;
 }
 
@@ -154,7 +155,7 @@ ExitCode run_run(Arguments arguments)
     if (options.has("output")) require_no_picture(options.get("output"));
     for (const char* word : {"curves", "equal", "points", "sphere", "like"})
         if (options.has(word) && !options.has("plot"))
-            throw UsageError(fmt::format("lagen run: --{} says what --plot draws: give --plot FILE.svg as well", word));
+            throw UsageError(fmt::format("--{} says what --plot draws: give --plot FILE.svg as well", word));
     (void)second_run_of(options);
     for (const char* file : {"output", "plot"})
         if (options.has(file)) require_writable(options.get(file));
@@ -163,7 +164,7 @@ ExitCode run_run(Arguments arguments)
     const auto file = std::make_shared<const SourceFile>(SourceFile{path, read_file(path)});
     if (is_morphism(file)) return run_morphism(options, file);
     if (options.has("reconstruct"))
-        throw UsageError("lagen run: --reconstruct is of a morphism, and " + quote(path) + " is a model");
+        throw UsageError("--reconstruct is of a morphism, and " + quote(path) + " is a model");
     CheckedModel checked = read(path, options.settings(), options.has("unchecked"));
     if (const MethodEntry* method = variational_method(options, checked.model))
         checked.model = variational_model(std::move(checked.model), method->scheme, method->name);

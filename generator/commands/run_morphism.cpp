@@ -28,8 +28,8 @@ void refuse_options(const Options& options)
 {
     for (const char* name : {"plot", "accuracy", "bind", "time-scale"})
         if (options.has(name))
-            throw UsageError(fmt::format("lagen run: --{} is of a model, and {} is a morphism", name,
-                                         quote(options.positional()[0])));
+            throw UsageError(
+                fmt::format("--{} is of a model, and {} is a morphism", name, quote(options.positional()[0])));
 }
 
 /// What acts on the source from outside is not known as a function of the target.
@@ -69,8 +69,7 @@ void refuse_variational(const Scene& scene)
 {
     const MethodEntry* method = find_method(scene.method);
     if (method == nullptr || *method->scheme == '\0') return;
-    throw UsageError(
-        fmt::format("lagen run: {} makes arrows of its own, which the morphism does not map", scene.method));
+    throw UsageError(fmt::format("{} makes arrows of its own, which the morphism does not map", scene.method));
 }
 
 /// The first `count` columns behind t.
@@ -141,7 +140,7 @@ void tell(const Options& options, const RunOutcome& source, const RunOutcome& ta
 void require_lift(const VerifiedMorphism& verified, const std::string& form)
 {
     if (form_named(form).steps)
-        throw UsageError("lagen run: --reconstruct is of motions in continuous time, and the scene is a discrete one");
+        throw UsageError("--reconstruct is of motions in continuous time, and the scene is a discrete one");
     const FibreRank& rank = verified.map.rank;
     if (rank.surjective && rank.injective && rank.where.empty()) return;
     throw MathematicsError(

@@ -187,7 +187,7 @@ ExitCode run_solve(Arguments arguments)
     const bool as_json = options.as_json();
     if (options.has("output")) require_writable(options.get("output"));
     if (!options.has("relative-equilibria"))
-        throw UsageError("lagen solve: give --relative-equilibria, which is what it solves for");
+        throw UsageError("give --relative-equilibria, which is what it solves for");
     const std::uint64_t starts = whole_option(options, "starts", 0, 100000);
     CheckedModel checked = load(model_path(options.positional()[0]), options.settings(), options.has("unchecked"));
     const Model& model = checked.model;

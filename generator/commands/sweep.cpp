@@ -79,7 +79,7 @@ std::size_t threads_of(const Options& options)
     if (!options.has("threads")) return launched_threads();
     const std::optional<std::uint64_t> count = read_whole(options.get("threads"));
     if (count && *count >= 1 && *count <= most_threads) return static_cast<std::size_t>(*count);
-    throw UsageError(fmt::format("lagen sweep: --threads is '{}', where a whole number from 1 to {} is required",
+    throw UsageError(fmt::format("--threads is '{}', where a whole number from 1 to {} is required",
                                  options.get("threads"), most_threads));
 }
 
@@ -113,7 +113,7 @@ void merge_parts(const Options& options)
 {
     for (const auto& [name, value] : options.given())
         if (name != "merge" && name != "output")
-            throw UsageError(fmt::format("lagen sweep: --merge takes the parts and --output alone, found --{}", name));
+            throw UsageError(fmt::format("--merge takes the parts and --output alone, found --{}", name));
     merge_sweep(options.positional(), options.get("output"));
 }
 
@@ -160,11 +160,10 @@ ExitCode run_sweep(Arguments arguments)
     const Options options(sweep_syntax, arguments);
     if (options.help()) return ExitCode::done;
     const std::string output = options.get("output");
-    if (output.empty() || output == "-") throw UsageError("lagen sweep: --output FILE is missing");
+    if (output.empty() || output == "-") throw UsageError("--output FILE is missing");
     if (options.has("merge")) return merge_parts(options), ExitCode::done;
     if (options.positional().size() > 1)
-        throw UsageError(
-            fmt::format("lagen sweep: unexpected argument '{}' (see lagen sweep --help)", options.positional()[1]));
+        throw UsageError(fmt::format("unexpected argument '{}' (see lagen sweep --help)", options.positional()[1]));
     if (options.has("form")) (void)options.choice("form", form_names());
     const SweepRequest request(options);
     const std::size_t threads = threads_of(options);
@@ -206,11 +205,10 @@ ExitCode run_sweep(Arguments arguments)
     file.complete();
     write_standard_error(summary(path, file, run.reasons()));
     if (run.unproved() > 0)
-        warn(fmt::format(
-            "{}{} left out with left_domain: {}\nhint: conditions on parameters in [base] domain under which "
-            "it can be proved make it hold for all of them",
-            resumed ? "at least " : "", run.unproved() == 1 ? "1 row is" : fmt::format("{} rows are", run.unproved()),
-            proved_for_alone(record.proved_for)));
+        warn(fmt::format("{}{} left out with left_domain: {}", resumed ? "at least " : "",
+                         run.unproved() == 1 ? "1 row is" : fmt::format("{} rows are", run.unproved()),
+                         proved_for_alone(record.proved_for)),
+             "conditions on parameters in [base] domain under which it can be proved make it hold for all of them");
     write_standard_error(small_lanes_warning(run, resumed));
     if (path != output && merge_ranks(output, identity))
         write_standard_error(fmt::format("{}: {} rows of {} parts\n", output, rows.count, shard.count));

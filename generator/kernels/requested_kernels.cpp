@@ -27,8 +27,8 @@ bool has_what_it_needs(const KernelRow& row, const std::vector<std::string>& nam
 [[noreturn]] void refuse(const std::string& found, const std::string& name, const std::vector<std::string>& names)
 {
     const std::string near = nearest_name(name, names);
-    throw Error(ExitCode::usage, fmt::format("error: {} {}{}", found, fmt::join(names, ", "),
-                                             near.empty() ? "" : fmt::format("\nhint: did you mean '{}'?", near)));
+    throw Error(ExitCode::usage, with_hint(fmt::format("error: {} {}", found, fmt::join(names, ", ")),
+                                           near.empty() ? "" : fmt::format("did you mean '{}'?", near)));
 }
 
 } // namespace

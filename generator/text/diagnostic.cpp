@@ -257,8 +257,12 @@ std::string render(const Diagnostic& diagnostic)
     if (diagnostic.where.file) text = printable(place(diagnostic.where)) + ": ";
     text += fmt::format("{}: {}", spelling(diagnostic.severity), printable(diagnostic.message));
     if (diagnostic.where.file) text += fmt::format("\n{}", show_line(diagnostic.where));
-    if (!diagnostic.hint.empty()) text += fmt::format("\nhint: {}", printable(diagnostic.hint));
-    return text;
+    return with_hint(text, printable(diagnostic.hint));
+}
+
+std::string with_hint(const std::string& text, const std::string& hint)
+{
+    return hint.empty() ? text : fmt::format("{}\nhint: {}", text, hint);
 }
 
 ModelError::ModelError(Diagnostic diagnostic)
@@ -278,9 +282,8 @@ MathematicsError::MathematicsError(std::string message, std::string hint)
 }
 
 InternalError::InternalError(const std::string& text)
-    : text_(fmt::format("internal error: {}\nhint: this is a defect of lagen; please report it "
-                        "together with the model file and the command",
-                        text))
+    : text_(with_hint("internal error: " + text,
+                      "this is a defect of lagen; please report it together with the model file and the command"))
 {
 }
 

@@ -127,10 +127,16 @@ class MathematicsError : public Error {
     std::string message_, hint_;
 };
 
+/// TEXT, and "hint: HINT" on a line of its own where there is one.
+[[nodiscard]] std::string with_hint(const std::string& text, const std::string& hint);
+
 /// The machine failed us: no compiler, disk full, unreadable folder (exit code 5).
 class MachineError : public Error {
   public:
-    explicit MachineError(const std::string& text) : Error(ExitCode::machine, text) {}
+    explicit MachineError(const std::string& text, const std::string& hint = {})
+        : Error(ExitCode::machine, with_hint("error: " + text, hint))
+    {
+    }
 };
 
 /// A defect of lagen itself: the text asks the user to report it (exit code 5). It is neither an Error nor a

@@ -32,13 +32,12 @@ double accuracy_option(const Options& options)
 {
     for (const char* other : {"method", "step", "time-scale", "tolerance"})
         if (options.has(other))
-            throw UsageError(
-                fmt::format("lagen run: --accuracy chooses method, tolerance and step: leave out --{}", other));
+            throw UsageError(fmt::format("--accuracy chooses method, tolerance and step: leave out --{}", other));
     const std::string text = options.get("accuracy");
     char* end = nullptr;
     const double accuracy = std::strtod(text.c_str(), &end);
     if (text.empty() || *end != '\0' || !(accuracy > 0) || !(accuracy < 1))
-        throw UsageError(fmt::format("lagen run: --accuracy needs a number between 0 and 1, found '{}'", text));
+        throw UsageError(fmt::format("--accuracy needs a number between 0 and 1, found '{}'", text));
     return accuracy;
 }
 

@@ -74,7 +74,7 @@ std::vector<MethodFamily> method_families(const ChartProblem& problem, const std
     for (const MethodEntry& method : method_table()) {
         if (wanted.empty() ? *method.scheme != '\0' : std::ranges::find(wanted, &method) == wanted.end()) continue;
         const std::string obstacle = obstacle_to(method, problem);
-        if (!obstacle.empty() && !wanted.empty()) throw UsageError("lagen chart: " + obstacle);
+        if (!obstacle.empty() && !wanted.empty()) throw UsageError(obstacle);
         if (obstacle.empty())
             families[kinship_of(method)].push_back(&method);
         else

@@ -102,8 +102,8 @@ std::vector<std::string> answers_of(const std::vector<ChartCall>& calls, std::si
     for (ProcessResult& result : run_processes(commands, at_once)) {
         if (result.interrupted) throw InterruptedError("lagen: interrupted, nothing was written");
         if (!result.started || result.exit_code != 0)
-            throw MachineError(fmt::format("error: a program of the chart ended with exit code {}\n{}",
-                                           result.exit_code, result.error));
+            throw MachineError(
+                fmt::format("a program of the chart ended with exit code {}\n{}", result.exit_code, result.error));
         answers.push_back(std::move(result.output));
     }
     return answers;

@@ -18,7 +18,7 @@ constexpr const char* initial_prefix = "initial.";
 
 [[noreturn]] void refuse_over(const std::string& text, const std::string& what)
 {
-    throw UsageError(fmt::format("lagen chart: --over {}: {}", text, what));
+    throw UsageError(fmt::format("--over {}: {}", text, what));
 }
 
 /// The name as the model has it.
@@ -37,7 +37,7 @@ std::string name_in_model(const Setting& setting, const std::string& text, const
 
 StabilityAxis axis_from(const std::string& text, const Model& model)
 {
-    const Setting setting = read_setting("chart", "over", text);
+    const Setting setting = read_setting("over", text);
     const std::vector<Excerpt> parts = parts_of_range(setting.value);
     if (parts.size() != 3) refuse_over(text, "a range is FIRST:LAST:COUNT");
     GridAxis grid{end_of_range(model, "over", parts[0]), end_of_range(model, "over", parts[1]), 0};
@@ -57,8 +57,8 @@ std::vector<StabilityAxis> stability_axes(const std::string& over, const Model& 
 {
     const std::vector<std::string> texts = split_list(over);
     if (texts.empty() || texts.size() > 2 || !texts[0].starts_with("step="))
-        throw UsageError("lagen chart: --stability needs --over step=FIRST:LAST:COUNT, and behind a comma at most one "
-                         "range more, of a parameter or of initial.NAME");
+        throw UsageError("--stability needs --over step=FIRST:LAST:COUNT, and behind a comma at most one range more, "
+                         "of a parameter or of initial.NAME");
     std::vector<StabilityAxis> axes;
     for (const std::string& text : texts) axes.push_back(axis_from(text, model));
     for (const double step : axes[0].values)
@@ -66,7 +66,7 @@ std::vector<StabilityAxis> stability_axes(const std::string& over, const Model& 
     if (axes.size() == 1) return axes;
     if (axes[1].values.size() * axes[0].values.size() > most_cells)
         refuse_over(over, fmt::format("the chart has more than {} points", most_cells));
-    axes[1].name = name_in_model(read_setting("chart", "over", texts[1]), texts[1], model, scene);
+    axes[1].name = name_in_model(read_setting("over", texts[1]), texts[1], model, scene);
     const std::optional<std::string> starts = initial_name(axes[1].name);
     axes[1].heading =
         (starts ? initial_prefix : "") + plain_names({starts.value_or(axes[1].name)}, all_names(model))[0];

@@ -75,7 +75,7 @@ std::vector<MethodGroup> groups_of(const ChartProblem& problem, const std::vecto
         if (obstacle.empty())
             groups[method.kind].push_back(&method);
         else if (!wanted.empty())
-            throw UsageError("lagen chart: " + obstacle);
+            throw UsageError(obstacle);
         else
             left_out.push_back({method.name, obstacle});
     }
@@ -299,7 +299,7 @@ void chart_steps(CheckedModel& checked, const ChartRequest& request, const Scene
         const std::string reason = fmt::format("{} makes the steps of [lagrangian], and scene '{}' those of [discrete]",
                                                other.name, scene.name);
         if (std::ranges::find(request.methods, &other) != request.methods.end())
-            throw UsageError(fmt::format("lagen chart: {}\nhint: --form lagrange", reason));
+            throw UsageError(reason, "--form lagrange");
         if (request.methods.empty()) chart.left_out.push_back({other.name, reason});
     }
     look_at_curves(checked, scene, chart);

@@ -55,11 +55,10 @@ void check_positional(const CommandSyntax& syntax, const std::vector<std::string
     const bool several = shape.ends_with("...");
     const std::size_t least = shape.empty() ? 0 : 1;
     if (positional.size() < least)
-        throw UsageError(
-            fmt::format("lagen {}: {} is missing (see lagen {} --help)", syntax.command, shape, syntax.command));
+        throw UsageError(fmt::format("{} is missing (see lagen {} --help)", shape, syntax.command));
     if (positional.size() > least && !several) {
-        throw UsageError(fmt::format("lagen {}: unexpected argument '{}' (see lagen {} --help)", syntax.command,
-                                     positional[least], syntax.command));
+        throw UsageError(
+            fmt::format("unexpected argument '{}' (see lagen {} --help)", positional[least], syntax.command));
     }
 }
 
@@ -70,8 +69,8 @@ void require_other_files(const Options& options, const std::vector<std::string>&
     for (const char* written : {"output", "plot", "depfile"})
         for (const std::string& file : read)
             if (options.has(written) && std::filesystem::equivalent(options.get(written), file, ignored))
-                throw UsageError(fmt::format("lagen {}: '{}' is read, and cannot be --{} as well", options.command(),
-                                             options.get(written), written));
+                throw UsageError(
+                    fmt::format("'{}' is read, and cannot be --{} as well", options.get(written), written));
 }
 
 } // namespace
@@ -97,11 +96,10 @@ Options::Options(const CommandSyntax& syntax, std::span<const std::string> argum
         std::vector<std::string> known;
         for (const OptionEntry& entry : syntax.options) known.push_back("--" + long_name(entry));
         const std::string nearest = nearest_name(error.get_option_name(), known);
-        throw UsageError(fmt::format("lagen {0}: unknown option '{1}'{2} (see lagen {0} --help)", command_,
-                                     error.get_option_name(),
-                                     nearest.empty() ? "" : fmt::format(", did you mean '{}'?", nearest)));
+        throw UsageError(fmt::format("unknown option '{}'{} (see lagen {} --help)", error.get_option_name(),
+                                     nearest.empty() ? "" : fmt::format(", did you mean '{}'?", nearest), command_));
     } catch (const po::error& error) {
-        throw UsageError(fmt::format("lagen {}: {} (see lagen {} --help)", command_, error.what(), command_));
+        throw UsageError(fmt::format("{} (see lagen {} --help)", error.what(), command_));
     }
     if (map.count("help") > 0) {
         print_help(syntax, description);
@@ -132,6 +130,13 @@ std::vector<std::string> Options::all(const std::string& name) const
     return found == values_.end() ? std::vector<std::string>{} : found->second;
 }
 
+void Options::refuse(const std::string& name, const std::string& text, const SourceRange& where,
+                     const std::string& hint) const
+{
+    if (has(name)) throw UsageError(text, hint);
+    throw ModelError(text, where, hint);
+}
+
 std::string Options::choice(const std::string& name, const std::vector<std::string>& allowed) const
 {
     const std::string value = get(name);
@@ -139,7 +144,7 @@ std::string Options::choice(const std::string& name, const std::vector<std::stri
     std::string list;
     for (const std::string& entry : allowed) list += (list.empty() ? "" : ", ") + entry;
     const std::string nearest = nearest_name(value, allowed);
-    throw UsageError(fmt::format("lagen {}: --{} is '{}', it must be one of {}{}", command_, name, value, list,
+    throw UsageError(fmt::format("--{} is '{}', it must be one of {}{}", name, value, list,
                                  nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest)));
 }
 
@@ -150,7 +155,7 @@ Setting Options::binding_of(const std::string& entry) const
     std::string name = entry.substr(0, equals);
     name.erase(name.find_last_not_of(' ') + 1);
     if (name.empty() || equals + 1 == entry.size())
-        throw UsageError(fmt::format("lagen {}: --bind needs names or name=value, found '{}'", command_, entry));
+        throw UsageError(fmt::format("--bind needs names or name=value, found '{}'", entry));
     if (equals == std::string::npos) return {name, {}, true};
     return {name, whole_text("<--bind " + name + ">", entry.substr(equals + 1)), true};
 }
@@ -163,10 +168,9 @@ void Options::add_bindings(std::vector<Setting>& settings) const
     for (const Setting& set : settings)
         for (const Setting& bound : bindings)
             if (bound.gives_value() && (names_entry(bound.name, set.name) || names_entry(set.name, bound.name)))
-                throw UsageError(fmt::format("lagen {}: --set gives '{}' the value {} and --bind gives '{}' the value "
-                                             "{}\nhint: --bind {} takes the value of --set",
-                                             command_, set.name, set.value.text, bound.name, bound.value.text,
-                                             bound.name));
+                throw UsageError(fmt::format("--set gives '{}' the value {} and --bind gives '{}' the value {}",
+                                             set.name, set.value.text, bound.name, bound.value.text),
+                                 fmt::format("--bind {} takes the value of --set", bound.name));
     settings.insert(settings.end(), bindings.begin(), bindings.end());
 }
 
@@ -180,15 +184,15 @@ std::vector<Setting> Options::settings() const
 std::vector<Setting> Options::named(const std::string& option) const
 {
     std::vector<Setting> settings;
-    for (const std::string& text : all(option)) settings.push_back(read_setting(command_, option, text));
+    for (const std::string& text : all(option)) settings.push_back(read_setting(option, text));
     return settings;
 }
 
-Setting read_setting(const std::string& command, const std::string& option, const std::string& text)
+Setting read_setting(const std::string& option, const std::string& text)
 {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0)
-        throw UsageError(fmt::format("lagen {}: --{} needs name=value, found '{}'", command, option, text));
+        throw UsageError(fmt::format("--{} needs name=value, found '{}'", option, text));
     const std::string name = text.substr(0, text.find_last_not_of(' ', equals - 1) + 1);
     const std::size_t value = std::min(text.find_first_not_of(' ', equals + 1), text.size());
     return {name, whole_text(fmt::format("<--{} {}>", option, name), text.substr(value))};

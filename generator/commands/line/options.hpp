@@ -15,10 +15,14 @@
 
 namespace lagen {
 
-/// The command line is wrong (exit code 4).
+/// The command line is wrong (exit code 4): a sentence without a full stop. `lagen` says before it which command was
+/// called.
 class UsageError : public Error {
   public:
-    explicit UsageError(const std::string& text) : Error(ExitCode::usage, text) {}
+    explicit UsageError(const std::string& text, const std::string& hint = {})
+        : Error(ExitCode::usage, with_hint(text, hint))
+    {
+    }
 };
 
 struct OptionEntry {
@@ -48,6 +52,10 @@ class Options {
     [[nodiscard]] const std::vector<std::string>& positional() const { return positional_; }
     /// Options and their values as they were given.
     [[nodiscard]] const std::vector<std::pair<std::string, std::string>>& given() const { return given_; }
+
+    /// Something is wrong: with the option --NAME where it was given, else with the model file there.
+    [[noreturn]] void refuse(const std::string& name, const std::string& text, const SourceRange& where,
+                             const std::string& hint = {}) const;
 
     /// The value of `name`, which must be one of `allowed`.
     [[nodiscard]] std::string choice(const std::string& name, const std::vector<std::string>& allowed) const;
@@ -92,7 +100,7 @@ inline constexpr OptionEntry format{"format,f", "FORMAT", "text or json", "text"
 } // namespace option
 
 /// `text` of --OPTION as name and expression; UsageError where it is not name=value.
-[[nodiscard]] Setting read_setting(const std::string& command, const std::string& option, const std::string& text);
+[[nodiscard]] Setting read_setting(const std::string& option, const std::string& text);
 
 /// "a,b , c" as {"a", "b", "c"}; commas inside parentheses and brackets do not separate.
 [[nodiscard]] std::vector<std::string> split_list(const std::string& text);

@@ -92,9 +92,8 @@ std::uint64_t whole_option(const Options& options, const std::string& name, std:
 {
     const std::optional<std::uint64_t> value = read_whole(options.get(name));
     if (value && *value >= least && *value <= most) return *value;
-    throw UsageError(fmt::format("lagen {}: --{} is '{}', where a whole number from {} {} is required",
-                                 options.command(), name, options.get(name), least,
-                                 most == UINT64_MAX ? "on" : fmt::format("to {}", most)));
+    throw UsageError(fmt::format("--{} is '{}', where a whole number from {} {} is required", name, options.get(name),
+                                 least, most == UINT64_MAX ? "on" : fmt::format("to {}", most)));
 }
 
 } // namespace lagen

@@ -27,11 +27,11 @@ std::map<std::string, Excerpt> parts_of_cost(const std::string& text)
         const std::size_t equals = std::min(text.find('=', begin), end);
         const Excerpt name = trimmed(whole, begin, equals);
         if (equals == end || (name.text != "Q" && name.text != "R") || parts.contains(name.text))
-            throw UsageError(fmt::format("lagen linearize: --lqr needs 'Q=..;R=..', found '{}'", text));
+            throw UsageError(fmt::format("--lqr needs 'Q=..;R=..', found '{}'", text));
         parts.emplace(name.text, trimmed(whole, equals + 1, end));
         begin = end + 1;
     }
-    if (parts.size() < 2) throw UsageError(fmt::format("lagen linearize: --lqr needs 'Q=..;R=..', found '{}'", text));
+    if (parts.size() < 2) throw UsageError(fmt::format("--lqr needs 'Q=..;R=..', found '{}'", text));
     return parts;
 }
 

@@ -39,15 +39,13 @@ std::vector<std::string> find_compiler()
     std::vector<std::string> named = words(std::getenv("CXX"));
     if (!named.empty()) {
         if (!find_program(named[0]).empty()) return named;
-        throw MachineError(fmt::format(
-            "error: the C++ compiler '{}' (from CXX) was not found\nhint: `run` compiles the generated header; "
-            "unset CXX or name a C++20 compiler",
-            named[0]));
+        throw MachineError(fmt::format("the C++ compiler '{}' (from CXX) was not found", named[0]),
+                           "`run` compiles the generated header; unset CXX or name a C++20 compiler");
     }
     for (const char* candidate : {"c++", "g++", "clang++"})
         if (!find_program(candidate).empty()) return {candidate};
-    throw MachineError("error: no C++ compiler was found (tried c++, g++, clang++)\nhint: `run` compiles the generated "
-                       "header; install g++ or set CXX");
+    throw MachineError("no C++ compiler was found (tried c++, g++, clang++)",
+                       "`run` compiles the generated header; install g++ or set CXX");
 }
 
 /// The last of these options under which a compiler takes every number for finite, or sums in another order than is
@@ -76,10 +74,10 @@ std::vector<std::string> flags_of_user()
 {
     std::vector<std::string> flags = words(std::getenv("CXXFLAGS"));
     if (const std::string option = unsafe_option(flags); !option.empty())
-        throw MachineError(fmt::format("error: CXXFLAGS holds {}, with which a program cannot see that a number is not "
-                                       "finite and loses its compensated sums\nhint: leave it out; -O3 -march=native "
-                                       "is as fast here",
-                                       option));
+        throw MachineError(fmt::format("CXXFLAGS holds {}, with which a program cannot see that a number is not finite "
+                                       "and loses its compensated sums",
+                                       option),
+                           "leave it out; -O3 -march=native is as fast here");
     return flags;
 }
 
@@ -128,10 +126,9 @@ void require_success(const std::vector<std::string>& command, const ProcessResul
 {
     if (result.interrupted) throw InterruptedError("lagen: interrupted while compiling");
     if (!result.started)
-        throw MachineError(
-            fmt::format("error: the C++ compiler '{}' could not be started: {}", command[0], result.error));
+        throw MachineError(fmt::format("the C++ compiler '{}' could not be started: {}", command[0], result.error));
     if (result.exit_code != 0)
-        throw MachineError(fmt::format("error: the C++ compiler failed with exit code {}\n{}\n{}{}", result.exit_code,
+        throw MachineError(fmt::format("the C++ compiler failed with exit code {}\n{}\n{}{}", result.exit_code,
                                        line_of(command), result.error, result.output));
 }
 
@@ -289,10 +286,10 @@ void require_quad()
         "extern \"C\" __float128 sqrtq(__float128);\nint main(int count, char**)\n{\n    return sqrtq(count) "
         "> 2;\n}\n";
     if (takes(text, {"-lquadmath"})) return;
-    throw MachineError(fmt::format("error: the reference of a chart has 113 bits, and the C++ compiler '{}' makes no "
-                                   "program with __float128 and libquadmath\nhint: g++ on x86 does; CXX names the "
-                                   "compiler",
-                                   find_compiler()[0]));
+    throw MachineError(fmt::format("the reference of a chart has 113 bits, and the C++ compiler '{}' makes no program "
+                                   "with __float128 and libquadmath",
+                                   find_compiler()[0]),
+                       "g++ on x86 does; CXX names the compiler");
 }
 
 std::string build_text()

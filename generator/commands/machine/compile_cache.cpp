@@ -101,18 +101,15 @@ try {
 
 void keep_program(const std::string& made, const std::string& kept)
 {
-    const auto refuse = [&](const std::string& why) {
-        throw MachineError(fmt::format("error: cannot write '{}': {}", kept, why));
-    };
     std::error_code error;
-    if (!fs::exists(made, error)) refuse(std::strerror(ENOENT));
+    if (!fs::exists(made, error)) refuse_writing(kept, ENOENT);
     std::ofstream file(made, std::ios::binary | std::ios::app);
     file << seal_of(content_of_file(made)) << std::flush;
-    if (!file) refuse(std::strerror(errno));
+    if (!file) refuse_writing(kept, errno);
     file.close();
     remove_folder(kept);
     fs::rename(made, kept, error);
-    if (error) refuse(error.message());
+    if (error) refuse_writing(kept, error.value());
 }
 
 void trim_cache(const std::string& folder)

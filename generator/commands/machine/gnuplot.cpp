@@ -56,8 +56,7 @@ void draw_picture(const std::string& path, const std::function<std::string(const
         const ProcessResult result = run_process({"gnuplot", file});
         if (result.interrupted) throw InterruptedError("lagen: interrupted while drawing");
         if (!result.started || result.exit_code != 0)
-            throw MachineError(
-                fmt::format("error: gnuplot failed with exit code {}\n{}", result.exit_code, result.error));
+            throw MachineError(fmt::format("gnuplot failed with exit code {}\n{}", result.exit_code, result.error));
         content = content_of_file(picture);
     }
     write_file(path, content);

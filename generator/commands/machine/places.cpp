@@ -103,8 +103,8 @@ std::string runtime_folder()
         {environment("LAGEN_INCLUDE"), prefix() / "include", fs::path(LAGEN_SOURCE_DIR) / "runtime" / "include"},
         "lagen/kernel.hpp");
     if (folder.empty())
-        throw MachineError("error: the runtime's headers (lagen/kernel.hpp) were not found\nhint: set LAGEN_INCLUDE to "
-                           "the folder that holds lagen/");
+        throw MachineError("the runtime's headers (lagen/kernel.hpp) were not found",
+                           "set LAGEN_INCLUDE to the folder that holds lagen/");
     return folder;
 }
 
@@ -114,9 +114,8 @@ std::string program_folder()
         first_with({prefix() / "share" / "lagen" / "program", fs::path(LAGEN_SOURCE_DIR) / "runtime" / "program"},
                    "lagen_run/driver.hpp");
     if (folder.empty())
-        throw MachineError(
-            "error: the program of `run` (lagen_run/driver.hpp) was not found\nhint: it is installed with "
-            "lagen, in share/lagen/program beside bin/");
+        throw MachineError("the program of `run` (lagen_run/driver.hpp) was not found",
+                           "it is installed with lagen, in share/lagen/program beside bin/");
     return folder;
 }
 
@@ -126,8 +125,8 @@ std::string eigen_folder()
         {environment("LAGEN_EIGEN_INCLUDE"), LAGEN_EIGEN_DIR, "/usr/include/eigen3", "/usr/local/include/eigen3"},
         "Eigen/Core");
     if (folder.empty())
-        throw MachineError("error: Eigen's headers (Eigen/Core) were not found\nhint: set LAGEN_EIGEN_INCLUDE to the "
-                           "folder that holds Eigen/");
+        throw MachineError("Eigen's headers (Eigen/Core) were not found",
+                           "set LAGEN_EIGEN_INCLUDE to the folder that holds Eigen/");
     return folder;
 }
 
@@ -162,8 +161,8 @@ std::string cache_folder()
     const fs::path shared = fs::path(shared_temporary_folder()) / fmt::format("lagen-{}", ::getuid());
     const std::string other = obstacle_in_shared(shared);
     if (!other.empty())
-        throw MachineError(
-            fmt::format("error: {}\nand neither is '{}': {}\nhint: set LAGEN_CACHE", found, shared.string(), other));
+        throw MachineError(fmt::format("{}\nand neither is '{}': {}", found, shared.string(), other),
+                           "set LAGEN_CACHE");
     static bool told = false;
     if (!told) write_standard_error(fmt::format("note: {}; they go to '{}'\n", found, shared.string()));
     told = true;

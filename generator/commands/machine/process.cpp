@@ -58,7 +58,7 @@ struct Pipe {
     Pipe()
     {
         if (::pipe2(ends.data(), O_CLOEXEC) != 0)
-            throw MachineError(fmt::format("error: cannot make a pipe: {}", std::strerror(errno)));
+            throw MachineError(fmt::format("cannot make a pipe: {}", std::strerror(errno)));
     }
     ~Pipe()
     {
@@ -207,7 +207,7 @@ void serve(const std::vector<std::unique_ptr<Child>>& children, std::vector<Proc
     }
     if (::poll(waiting.data(), waiting.size(), -1) < 0) {
         if (errno == EINTR) return;
-        throw MachineError(fmt::format("error: cannot wait for a child process: {}", std::strerror(errno)));
+        throw MachineError(fmt::format("cannot wait for a child process: {}", std::strerror(errno)));
     }
     for (std::size_t k = 0; k < children.size(); ++k) {
         ProcessResult& result = results[children[k]->command];

@@ -58,7 +58,7 @@ TemporaryFolder::TemporaryFolder(const std::string& parent, const std::string& s
     : path_(parent + "/" + stem + "-XXXXXX")
 {
     if (::mkdtemp(path_.data()) == nullptr)
-        throw MachineError(fmt::format("error: cannot make a folder in '{}': {}", parent, std::strerror(errno)));
+        throw MachineError(fmt::format("cannot make a folder in '{}': {}", parent, std::strerror(errno)));
 }
 
 TemporaryFolder::~TemporaryFolder()
@@ -72,9 +72,8 @@ std::string shared_temporary_folder()
     std::error_code error;
     const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
     if (error) {
-        throw MachineError(fmt::format("error: there is no folder for temporary files: {}\nhint: set TMPDIR to a "
-                                       "folder that can be written",
-                                       error.message()));
+        throw MachineError(fmt::format("there is no folder for temporary files: {}", error.message()),
+                           "set TMPDIR to a folder that can be written");
     }
     return folder.string();
 }

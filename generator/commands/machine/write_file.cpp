@@ -37,11 +37,6 @@ class SignalsHeld {
     sigset_t before_{};
 };
 
-[[noreturn]] void fail(const std::string& path, int error)
-{
-    throw MachineError(fmt::format("error: cannot write '{}': {}", path, std::strerror(error)));
-}
-
 /// Everything or an errno.
 int write_all(int file, std::string_view content)
 {
@@ -67,27 +62,37 @@ std::filesystem::path target_of(const std::string& path)
 void write_directly(const std::string& path, std::string_view content)
 {
     const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-    if (file < 0) fail(path, errno);
+    if (file < 0) refuse_writing(path, errno);
     int error = write_all(file, content);
     if (::close(file) != 0 && error == 0) error = errno;
-    if (error != 0 && error != EPIPE) fail(path, error);
+    if (error != 0 && error != EPIPE) refuse_writing(path, error);
 }
 
 } // namespace
+
+void refuse_writing(const std::string& path, int error, const std::string& hint)
+{
+    throw MachineError(fmt::format("cannot write '{}': {}", path, std::strerror(error)), hint);
+}
+
+void refuse_reading(const std::string& path, int error)
+{
+    throw MachineError(fmt::format("cannot read '{}': {}", path, std::strerror(error)));
+}
 
 void write_file(const std::string& path, std::string_view content)
 {
     if (path == "-") return write_standard_output(content);
     struct stat status {};
     const bool exists = ::stat(path.c_str(), &status) == 0;
-    if (exists && S_ISDIR(status.st_mode)) fail(path, EISDIR);
+    if (exists && S_ISDIR(status.st_mode)) refuse_writing(path, EISDIR);
     if (exists && !S_ISREG(status.st_mode)) return write_directly(path, content);
 
     const std::string target = target_of(path).string();
     const SignalsHeld held;
     std::string temporary = target + ".XXXXXX";
     const int file = ::mkstemp(temporary.data());
-    if (file < 0) fail(path, errno);
+    if (file < 0) refuse_writing(path, errno);
     const mode_t mask = ::umask(0);
     ::umask(mask);
     int error = ::fchmod(file, exists ? (status.st_mode & 07777U) : (0666U & ~mask)) == 0 ? 0 : errno;
@@ -97,7 +102,7 @@ void write_file(const std::string& path, std::string_view content)
     if (error == 0 && ::rename(temporary.c_str(), target.c_str()) != 0) error = errno;
     if (error != 0) {
         ::unlink(temporary.c_str());
-        fail(path, error);
+        refuse_writing(path, error);
     }
 }
 
@@ -106,11 +111,11 @@ void require_writable(const std::string& path)
     if (path == "-") return;
     struct stat status {};
     const bool exists = ::stat(path.c_str(), &status) == 0;
-    if (exists && S_ISDIR(status.st_mode)) fail(path, EISDIR);
+    if (exists && S_ISDIR(status.st_mode)) refuse_writing(path, EISDIR);
     if (exists && !S_ISREG(status.st_mode)) return;
     const std::filesystem::path folder = target_of(path).parent_path();
     // The dot tells a file in the place of the folder from one without permission.
-    if (::access((folder / ".").c_str(), W_OK | X_OK) != 0) fail(path, errno);
+    if (::access((folder / ".").c_str(), W_OK | X_OK) != 0) refuse_writing(path, errno);
 }
 
 void write_standard_output(std::string_view content)
@@ -118,7 +123,7 @@ void write_standard_output(std::string_view content)
     wipe_activity_line();
     const int error = write_all(STDOUT_FILENO, content);
     if (error != 0 && error != EPIPE)
-        throw MachineError(fmt::format("error: cannot write to standard output: {}", std::strerror(error)));
+        throw MachineError(fmt::format("cannot write to standard output: {}", std::strerror(error)));
 }
 
 void write_standard_error(std::string_view text)
@@ -127,9 +132,9 @@ void write_standard_error(std::string_view text)
     (void)write_all(STDERR_FILENO, text);
 }
 
-void warn(const std::string& text)
+void warn(const std::string& text, const std::string& hint)
 {
-    write_standard_error("warning: " + text + "\n");
+    write_standard_error(with_hint("warning: " + text, hint) + "\n");
 }
 
 void warn(const std::vector<std::string>& texts)
@@ -140,7 +145,7 @@ void warn(const std::vector<std::string>& texts)
 std::string content_of_file(const std::string& path)
 {
     std::FILE* file = std::fopen(path.c_str(), "rb");
-    if (file == nullptr) throw MachineError(fmt::format("error: cannot read '{}': {}", path, std::strerror(errno)));
+    if (file == nullptr) refuse_reading(path, errno);
     std::string content;
     char buffer[65536];
     for (std::size_t count = 0; (count = std::fread(buffer, 1, sizeof buffer, file)) > 0;)
@@ -148,7 +153,7 @@ std::string content_of_file(const std::string& path)
     const bool failed = std::ferror(file) != 0;
     const int error = errno;
     std::fclose(file);
-    if (failed) throw MachineError(fmt::format("error: cannot read '{}': {}", path, std::strerror(error)));
+    if (failed) refuse_reading(path, error);
     return content;
 }
 

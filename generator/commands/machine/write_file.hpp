@@ -25,9 +25,13 @@ void write_standard_output(std::string_view content);
 /// Writes to standard error as well as it can: a message that nobody can read is no reason to fail.
 void write_standard_error(std::string_view text);
 
-/// "warning: TEXT" on a line of standard error.
-void warn(const std::string& text);
+/// "warning: TEXT" on a line of standard error, and the hint on the next one.
+void warn(const std::string& text, const std::string& hint = {});
 void warn(const std::vector<std::string>& texts);
+
+/// "cannot write 'PATH': why", as a MachineError; `error` is an errno.
+[[noreturn]] void refuse_writing(const std::string& path, int error, const std::string& hint = {});
+[[noreturn]] void refuse_reading(const std::string& path, int error);
 
 /// The whole content of a file; MachineError where it cannot be read.
 [[nodiscard]] std::string content_of_file(const std::string& path);

@@ -128,7 +128,7 @@ Columns columns_of_run(const PlottedRun& run, const std::vector<PlannedPanel>& p
     outcome.table.columns = names;
     integrate_scene(run.record.program, input, outcome);
     if (outcome.table.count() == 0 || panels.empty())
-        throw MachineError("error: there is nothing to plot: the run gave no rows");
+        throw MachineError("there is nothing to plot: the run gave no rows");
     Columns columns;
     std::vector<double> jumps = jumps_of(outcome); // those that no row is behind yet, the next one last
     for (std::size_t place = 0; place < outcome.table.count(); ++place) {
@@ -187,16 +187,15 @@ bool is_picture(const std::string& path)
 void require_no_picture(const std::string& path)
 {
     if (is_picture(path))
-        throw UsageError(fmt::format("lagen run: --output writes the rows as CSV; a picture is `--plot {}`", path));
+        throw UsageError(fmt::format("--output writes the rows as CSV; a picture is `--plot {}`", path));
 }
 
 void require_plot_format(const std::string& path)
 {
     if (!is_picture(path))
-        throw UsageError(
-            fmt::format("lagen run: --plot needs a file that ends in .svg, .png or .pdf, found '{}'", path));
+        throw UsageError(fmt::format("--plot needs a file that ends in .svg, .png or .pdf, found '{}'", path));
     if (find_program("gnuplot").empty())
-        throw MachineError("error: gnuplot was not found\nhint: --plot draws with gnuplot; install gnuplot-nox");
+        throw MachineError("gnuplot was not found", "--plot draws with gnuplot; install gnuplot-nox");
 }
 
 std::string draw_scene(const std::vector<PlottedRun>& runs, const std::string& path)

@@ -42,18 +42,17 @@ std::vector<std::string> overlaid_scenes(const Options& options, const Model& mo
     std::vector<std::string> names = options.all("scene");
     if (names.size() < 2) return {};
     for (const char* word : {"accuracy", "bind", "branch", "variations", "jacobi-field"})
-        if (options.has(word))
-            throw UsageError(fmt::format("lagen run: --{} is of one run, and --scene names several", word));
+        if (options.has(word)) throw UsageError(fmt::format("--{} is of one run, and --scene names several", word));
     if (!options.has("plot"))
-        throw UsageError("lagen run: several scenes are drawn into one picture: give --plot FILE.svg as well");
+        throw UsageError("several scenes are drawn into one picture: give --plot FILE.svg as well");
     for (const std::string& name : names) {
-        if (std::ranges::count(names, name) > 1)
-            throw UsageError(fmt::format("lagen run: --scene names '{}' twice", name));
+        if (std::ranges::count(names, name) > 1) throw UsageError(fmt::format("--scene names '{}' twice", name));
         const Scene scene = scene_of(options, model, options.named("initial"), name);
         if (scene.form != last.form)
-            throw UsageError(fmt::format("lagen run: a picture is of runs of one form, and scene '{}' is run in the "
-                                         "form '{}', scene '{}' in the form '{}'\nhint: --form {}",
-                                         last.name, last.form, scene.name, scene.form, last.form));
+            throw UsageError(fmt::format("a picture is of runs of one form, and scene '{}' is run in the form '{}', "
+                                         "scene '{}' in the form '{}'",
+                                         last.name, last.form, scene.name, scene.form),
+                             fmt::format("--form {}", last.form));
     }
     names.pop_back();
     return names;

@@ -56,7 +56,7 @@ Model read_action_model(const Model& model, const std::vector<Setting>& settings
     entry_in(groupoid, "group") = toml_string(group);
     TomlValue& moved = entry_in(groupoid, "action");
     for (const std::string& each : split_list(action)) {
-        const Setting setting = read_setting("reduce", "action", each);
+        const Setting setting = read_setting("action", each);
         entry_in(moved, setting.name) = toml_string(setting.value.text);
     }
     for (const Symbol& each : model.base.coordinates) // what is not named stays

@@ -57,16 +57,14 @@ FixedNodes named_values(Graph& graph, const Model& model, const std::string& tex
     FixedNodes values(model.base.coordinates.size());
     const std::vector<Symbol> parameters = parameter_symbols(model);
     for (const std::string& each : split_list(text)) {
-        const Setting setting = read_setting("reduce", "slice", each);
+        const Setting setting = read_setting("slice", each);
         const auto found = std::ranges::find(model.base.coordinates, setting.name, &Symbol::name);
         if (found == model.base.coordinates.end())
-            throw UsageError(
-                fmt::format("lagen reduce: '{}' of --slice is no coordinate of model '{}'", setting.name, model.name));
+            throw UsageError(fmt::format("'{}' of --slice is no coordinate of model '{}'", setting.name, model.name));
         const Tree value = model.observer.close(parse_expression(setting.value));
         for (const std::string& used : names_in(value))
             if (std::ranges::find(parameters, used, &Symbol::name) == parameters.end())
-                throw UsageError(
-                    fmt::format("lagen reduce: '{}' in --slice is no parameter of model '{}'", used, model.name));
+                throw UsageError(fmt::format("'{}' in --slice is no parameter of model '{}'", used, model.name));
         values[static_cast<std::size_t>(found - model.base.coordinates.begin())] = Lowering(graph)(value);
     }
     return values;

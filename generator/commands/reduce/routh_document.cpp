@@ -174,13 +174,12 @@ class RouthDocument {
 std::vector<std::size_t> coordinates_to_reduce(const Model& model, const std::vector<std::string>& names)
 {
     require_tangent_lagrangian(model, "Routh's reduction");
-    if (names.empty()) throw UsageError("lagen reduce: --routh names no coordinate");
+    if (names.empty()) throw UsageError("--routh names no coordinate");
     std::vector<std::size_t> cyclic;
     for (const std::string& name : names) {
         const auto found = std::ranges::find(model.base.coordinates, name, &Symbol::name);
         if (found == model.base.coordinates.end())
-            throw UsageError(
-                fmt::format("lagen reduce: '{}' of --routh is no coordinate of model '{}'", name, model.name));
+            throw UsageError(fmt::format("'{}' of --routh is no coordinate of model '{}'", name, model.name));
         const auto k = static_cast<std::size_t>(found - model.base.coordinates.begin());
         if (std::ranges::find(cyclic, k) == cyclic.end()) cyclic.push_back(k);
     }

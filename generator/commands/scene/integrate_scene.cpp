@@ -68,9 +68,8 @@ bool run_in_process(const std::string& path, const ProgramInput& input, const de
     const std::string not_loaded =
         integrate_compiled(path, input.method_type, job_of(input), rows, interrupt.flag(), outcome);
     if (!not_loaded.empty())
-        throw MachineError(fmt::format("error: the compiled model could not be loaded: {}\nhint: remove '{}' to have "
-                                       "it compiled again",
-                                       not_loaded, path));
+        throw MachineError(fmt::format("the compiled model could not be loaded: {}", not_loaded),
+                           fmt::format("remove '{}' to have it compiled again", path));
     return !is_interrupted(outcome);
 }
 

@@ -40,9 +40,7 @@ void require_system(const Options& options, const Scene& scene, const MethodEntr
     std::optional<Obstacle> obstacle = obstacle_of(method, module);
     if (!obstacle) obstacle = obstacle_to_composition(method, checked, scene);
     if (!obstacle) return;
-    if (options.has("method"))
-        throw UsageError(fmt::format("lagen {}: {}\nhint: {}", options.command(), obstacle->text, obstacle->hint));
-    throw ModelError(obstacle->text, scene.method_where, obstacle->hint);
+    options.refuse("method", obstacle->text, scene.method_where, obstacle->hint);
 }
 
 /// Splitting methods need a kinetic and a potential part, or a sum of exact flows.

@@ -33,7 +33,7 @@ void replace_times(const Options& options, const Model& model, Scene& scene)
     scene.sampling = {Sampling::Kind::at, nullptr, 0, {}};
     for (const std::string& time : split_list(options.get("at")))
         scene.sampling.at.push_back(option_tree(model, "at", whole_text("<--at>", time)));
-    if (scene.sampling.at.empty()) throw UsageError("lagen run: --at needs at least one time, e.g. --at 0,1/2,1");
+    if (scene.sampling.at.empty()) throw UsageError("--at needs at least one time, e.g. --at 0,1/2,1");
 }
 
 /// "x1:y1, [x2:y2, x3:y3]": what stands in brackets is one panel.
@@ -50,7 +50,7 @@ Plot curves_of(const Options& options, const Model& model)
                     curves.push_back(std::move(each));
             if (!curves.empty()) add_panel(plot, std::move(curves));
         }
-    if (plot.panels.empty()) throw UsageError("lagen run: --curves needs at least one curve, e.g. --curves t:energy");
+    if (plot.panels.empty()) throw UsageError("--curves needs at least one curve, e.g. --curves t:energy");
     return plot;
 }
 
@@ -63,14 +63,14 @@ void set_plot(const Options& options, const Model& model, Scene& scene)
         scene.plot = find_scene(model, options.get("like")).plot;
         if (!scene.plot)
             throw UsageError(
-                fmt::format("lagen run: --like takes the picture of scene '{}', which has none", options.get("like")));
+                fmt::format("--like takes the picture of scene '{}', which has none", options.get("like")));
     }
     if (options.has("curves")) scene.plot = curves_of(options, model);
     for (const char* word : {"equal", "points", "sphere"})
         if (options.has(word) && !scene.plot)
-            throw UsageError(fmt::format("lagen run: --{} is for curves, and scene '{}' has no [scene.{}.plot]\nhint: "
-                                         "give them: --curves x:y",
-                                         word, scene.name, scene.name));
+            throw UsageError(
+                fmt::format("--{} is for curves, and scene '{}' has no [scene.{}.plot]", word, scene.name, scene.name),
+                "give them: --curves x:y");
     if (options.has("equal")) scene.plot->equal = true;
     if (options.has("points")) scene.plot->points = true;
     if (options.has("sphere")) scene.plot->sphere = true;
@@ -99,8 +99,7 @@ void require_splitting(const Options& options, const Scene& scene, const MethodE
     const std::string text =
         fmt::format("{} makes the steps of a symmetric splitting, and {} is none", what, method.name);
     const char* hint = "leapfrog_kdk and kahanli8 are";
-    if (given) throw UsageError(fmt::format("lagen {}: {}\nhint: {}", options.command(), text, hint));
-    throw ModelError(text, scene.time_scale_where, hint);
+    options.refuse("time-scale", text, scene.time_scale_where, hint);
 }
 
 /// Only the program behind `lagen run` steps from row to row.
@@ -124,8 +123,7 @@ void require_form_of(const Options& options, const Scene& scene, const MethodEnt
                                method.name, scene.name, scene.form);
     const std::string hint = discrete ? "leave the method out, or take another form: --form lagrange"
                                       : "--form discrete, or another method: `lagen methods` lists them";
-    if (options.has("method")) throw UsageError(fmt::format("lagen {}: {}\nhint: {}", options.command(), text, hint));
-    throw ModelError(text, scene.method_where.file ? scene.method_where : scene.where, hint);
+    options.refuse("method", text, scene.method_where.file ? scene.method_where : scene.where, hint);
 }
 
 } // namespace
@@ -197,9 +195,8 @@ Scene scene_of(const Options& options, const Model& model, const std::vector<Set
 void require_curve(const Options& options, const Scene& scene, const char* what)
 {
     if (!form_named(scene.form).steps) return;
-    throw UsageError(fmt::format("lagen {}: {} of curves, and scene '{}' is a discrete motion\nhint: --form lagrange, "
-                                 "where the model has [lagrangian]",
-                                 options.command(), what, scene.name));
+    throw UsageError(fmt::format("{} of curves, and scene '{}' is a discrete motion", what, scene.name),
+                     "--form lagrange, where the model has [lagrangian]");
 }
 
 void require_no_jumps(const Options& options, const Scene& scene, const char* what)
@@ -207,30 +204,23 @@ void require_no_jumps(const Options& options, const Scene& scene, const char* wh
     const auto jumps = [](const Event& event) { return !event.jump.empty(); };
     const auto event = std::ranges::find_if(scene.events, jumps);
     if (event == scene.events.end()) return;
-    throw UsageError(
-        fmt::format("lagen {}: {} of motions without jumps, and the event '{}' of scene '{}' has one\nhint: "
-                    "another scene, or the same without its events",
-                    options.command(), what, event->name, scene.name));
+    throw UsageError(fmt::format("{} of motions without jumps, and the event '{}' of scene '{}' has one", what,
+                                 event->name, scene.name),
+                     "another scene, or the same without its events");
 }
 
 const MethodEntry& method_of(const Options& options, const Scene& scene)
 {
     const bool discrete = form_named(scene.form).steps;
     const std::string name = !scene.method.empty() ? scene.method : discrete ? "discrete" : standard_method;
-    const std::string lagen = "lagen " + options.command() + ": ";
     const MethodEntry* method = find_method(name);
-    if (method == nullptr) {
-        const std::string hint = hint_for_method(name);
-        if (options.has("method")) throw UsageError(fmt::format("{}unknown method '{}'\nhint: {}", lagen, name, hint));
-        throw ModelError(fmt::format("unknown method '{}'", name), scene.method_where, hint);
-    }
+    if (method == nullptr)
+        options.refuse("method", fmt::format("unknown method '{}'", name), scene.method_where, hint_for_method(name));
     require_form_of(options, scene, *method);
-    if (!method->adaptive && !scene.step && !discrete) {
-        const std::string text =
-            fmt::format("method '{}' needs a step: give --step, or `step` in scene '{}'", name, scene.name);
-        if (options.has("method")) throw UsageError(lagen + text);
-        throw ModelError(text, scene.where);
-    }
+    if (!method->adaptive && !scene.step && !discrete)
+        options.refuse("method",
+                       fmt::format("method '{}' needs a step: give --step, or `step` in scene '{}'", name, scene.name),
+                       scene.where);
     require_splitting(options, scene, *method);
     warn_of_unused(options, *method);
     return *method;

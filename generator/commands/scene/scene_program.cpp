@@ -147,15 +147,14 @@ detail::RunJob job_of(const ProgramInput& input)
 void require_started(const ProcessResult& result, const std::string& program)
 {
     if (result.started) return;
-    throw MachineError(
-        fmt::format("error: the compiled scene could not be started: {}\nhint: remove '{}' to have it compiled again",
-                    result.error, program));
+    throw MachineError(fmt::format("the compiled scene could not be started: {}", result.error),
+                       fmt::format("remove '{}' to have it compiled again", program));
 }
 
 void refuse_end(const ProcessResult& result, const std::string& rest)
 {
     throw MachineError(
-        fmt::format("error: the compiled scene ended with exit code {}\n{}", result.exit_code, result.error + rest));
+        fmt::format("the compiled scene ended with exit code {}\n{}", result.exit_code, result.error + rest));
 }
 
 } // namespace lagen

@@ -81,9 +81,7 @@ RunOutcome finer_run(const RunSetting& run, const ProgramInput& input, const Run
 SecondRun second_run_of(const Options& options)
 {
     if (!options.has("no-second-run")) return options.has("second-run") ? SecondRun::always : SecondRun::short_runs;
-    if (options.has("second-run"))
-        throw UsageError(
-            fmt::format("lagen {}: --second-run and --no-second-run exclude each other", options.command()));
+    if (options.has("second-run")) throw UsageError("--second-run and --no-second-run exclude each other");
     return SecondRun::none;
 }
 

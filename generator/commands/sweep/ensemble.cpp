@@ -55,7 +55,7 @@ class EnsembleFile {
     explicit EnsembleFile(const std::string& path) : path_(path), file_(path, std::ios::binary)
     {
         if (!file_ || file_.peek() == std::ifstream::traits_type::eof())
-            throw UsageError(fmt::format("lagen sweep: the ensemble '{}' is no file that can be read, or empty", path));
+            throw UsageError(fmt::format("the ensemble '{}' is no file that can be read, or empty", path));
     }
 
     [[nodiscard]] bool next()
@@ -153,7 +153,7 @@ std::vector<double> row_numbers(const EnsembleFile& file, const std::vector<Swep
 SweepRows ensemble_rows(const std::string& path, const Model& model, const Scene& scene)
 {
     EnsembleFile file(path);
-    if (!file.next()) throw UsageError(fmt::format("lagen sweep: the ensemble '{}' has no heading", path));
+    if (!file.next()) throw UsageError(fmt::format("the ensemble '{}' has no heading", path));
     SweepRows rows{headed_names(file, model, scene), 0, "", {}};
     ContentHash hash;
     hash.add(file.line());
@@ -161,7 +161,7 @@ SweepRows ensemble_rows(const std::string& path, const Model& model, const Scene
         (void)row_numbers(file, rows.names, rows.count);
         hash.add(file.line());
     }
-    if (rows.count == 0) throw UsageError(fmt::format("lagen sweep: the ensemble '{}' has no rows", path));
+    if (rows.count == 0) throw UsageError(fmt::format("the ensemble '{}' has no rows", path));
     rows.text = "ensemble " + hash.hex32();
     const auto again = std::make_shared<EnsembleFile>(path);
     (void)again->next();

@@ -20,9 +20,8 @@ std::optional<std::uint64_t> variable(const char* name)
     if (text == nullptr || *text == '\0') return std::nullopt;
     const std::optional<std::uint64_t> value = read_whole(text);
     if (value) return value;
-    throw UsageError(fmt::format("lagen sweep: {} is '{}', where a whole number is required\nhint: --shard k/n says "
-                                 "which rows are computed",
-                                 name, text));
+    throw UsageError(fmt::format("{} is '{}', where a whole number is required", name, text),
+                     "--shard k/n says which rows are computed");
 }
 
 /// Of one launcher; nothing where its variables are not set.
@@ -31,9 +30,8 @@ std::optional<Shard> shard_of(const char* rank, const char* size)
     const std::optional<std::uint64_t> index = variable(rank), count = variable(size);
     if (!index || !count) return std::nullopt;
     if (*index < *count) return Shard{*index, *count};
-    throw UsageError(fmt::format("lagen sweep: {} is {} and {} is {}, which is no part of a sweep\nhint: --shard k/n "
-                                 "says which rows are computed",
-                                 rank, *index, size, *count));
+    throw UsageError(fmt::format("{} is {} and {} is {}, which is no part of a sweep", rank, *index, size, *count),
+                     "--shard k/n says which rows are computed");
 }
 
 /// Tasks of an array are numbered by its indices, which may begin anywhere and have a step, but no gaps.
@@ -48,9 +46,9 @@ Shard array_shard()
     if (*task >= least && (*task - least) % step == 0 && (*task - least) / step < *count &&
         most == least + (*count - 1) * step)
         return {(*task - least) / step, *count};
-    throw UsageError(fmt::format("lagen sweep: task {} of a Slurm array of {} from {} to {} cannot be numbered\nhint: "
-                                 "give the array indices without gaps (--array=0-{}), or --shard k/n",
-                                 *task, *count, least, most, *count - 1));
+    throw UsageError(
+        fmt::format("task {} of a Slurm array of {} from {} to {} cannot be numbered", *task, *count, least, most),
+        fmt::format("give the array indices without gaps (--array=0-{}), or --shard k/n", *count - 1));
 }
 
 } // namespace
@@ -61,7 +59,7 @@ Shard read_shard(const std::string& text)
     const std::optional<std::uint64_t> index = read_whole(text.substr(0, slash));
     const std::optional<std::uint64_t> count = read_whole(text.substr(std::min(slash + 1, text.size())));
     if (index && count && *index < *count) return {*index, *count};
-    throw UsageError(fmt::format("lagen sweep: --shard is '{}', where k/n with 0 <= k < n is required", text));
+    throw UsageError(fmt::format("--shard is '{}', where k/n with 0 <= k < n is required", text));
 }
 
 Shard launched_shard()

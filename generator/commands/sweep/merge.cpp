@@ -25,26 +25,24 @@ std::vector<std::string> sorted_parts(const std::vector<std::string>& parts, Swe
     for (const std::string& part : parts) {
         const std::optional<SweepIdentity> found = find_identity(part);
         if (!found || !found->complete)
-            throw UsageError(
-                fmt::format("lagen sweep: '{0}' is no complete part of a sweep: '{0}.sweep' does not say so", part));
+            throw UsageError(fmt::format("'{0}' is no complete part of a sweep: '{0}.sweep' does not say so", part));
         if (sorted.empty()) {
             whole = *found;
             sorted.resize(whole.shard.count);
         }
         if (found->key != whole.key || found->rows != whole.rows || found->shard.count != whole.shard.count)
-            throw UsageError(fmt::format("lagen sweep: '{}' and '{}' are not parts of the same sweep", parts[0], part));
+            throw UsageError(fmt::format("'{}' and '{}' are not parts of the same sweep", parts[0], part));
         if (found->build != whole.build)
-            throw UsageError(fmt::format("lagen sweep: two builds have made these parts:\n  '{}': {}\n  '{}': "
-                                         "{}\nhint: make all parts with one of them",
-                                         parts[0], whole.build, part, found->build));
+            throw UsageError(fmt::format("two builds have made these parts:\n  '{}': {}\n  '{}': {}", parts[0],
+                                         whole.build, part, found->build),
+                             "make all parts with one of them");
         std::string& place = sorted[found->shard.index];
         if (!place.empty())
-            throw UsageError(
-                fmt::format("lagen sweep: part {} is given twice, by '{}' and '{}'", found->shard.text(), place, part));
+            throw UsageError(fmt::format("part {} is given twice, by '{}' and '{}'", found->shard.text(), place, part));
         place = part;
     }
     for (std::size_t k = 0; k < sorted.size(); ++k)
-        if (sorted[k].empty()) throw UsageError(fmt::format("lagen sweep: part {}/{} is missing", k, sorted.size()));
+        if (sorted[k].empty()) throw UsageError(fmt::format("part {}/{} is missing", k, sorted.size()));
     return sorted;
 }
 
@@ -53,8 +51,7 @@ std::string line_of(std::ifstream& file, const std::string& part, const std::str
 {
     std::string line;
     if (!std::getline(file, line) || !line.starts_with(begin) || !line.ends_with('\r'))
-        throw UsageError(
-            fmt::format("lagen sweep: '{}' has no line that begins with '{}' where it must stand", part, begin));
+        throw UsageError(fmt::format("'{}' has no line that begins with '{}' where it must stand", part, begin));
     return line + '\n';
 }
 
@@ -85,7 +82,7 @@ class MergedFile {
     void check(bool good) const
     {
         if (good) return;
-        throw MachineError(fmt::format("error: cannot write '{}': {}", path_, std::strerror(errno)));
+        refuse_writing(path_, errno);
     }
 
     std::string path_, partial_;
@@ -130,14 +127,14 @@ void merge_sweep(const std::vector<std::string>& parts, const std::string& path)
     std::error_code ignored;
     for (const std::string& part : parts)
         if (part == path || std::filesystem::equivalent(part, path, ignored))
-            throw UsageError(fmt::format("lagen sweep: '{}' is a part, and cannot be --output as well", part));
+            throw UsageError(fmt::format("'{}' is a part, and cannot be --output as well", part));
     SweepIdentity whole;
     const std::vector<std::string> sorted = sorted_parts(parts, whole);
     std::vector<std::ifstream> files;
     std::string heading;
     for (const std::string& part : sorted) {
         files.emplace_back(part, std::ios::binary);
-        if (!files.back()) throw MachineError(fmt::format("error: cannot read '{}': {}", part, std::strerror(errno)));
+        if (!files.back()) refuse_reading(part, errno);
         heading = line_of(files.back(), part, heading.empty() ? "index," : heading.substr(0, heading.size() - 1));
     }
     MergedFile merged(path);

@@ -39,17 +39,11 @@ bool exists(const std::string& path)
     return ::access(path.c_str(), F_OK) == 0;
 }
 
-[[noreturn]] void refuse_writing(const std::string& path, const std::string& hint = {})
-{
-    throw MachineError(fmt::format("error: cannot write '{}': {}{}", path, std::strerror(errno), hint));
-}
-
 /// Throws where the rows of `file` are not those of `identity`.
 void require_same(const std::string& file, const std::optional<SweepIdentity>& found, const SweepIdentity& identity)
 {
-    const char* hint = "\nhint: --resume goes on with the same model, options and lagen; without it the sweep begins "
-                       "anew";
-    if (!found) throw UsageError(fmt::format("lagen sweep: nothing says of which sweep '{}' is{}", file, hint));
+    const char* hint = "--resume goes on with the same model, options and lagen; without it the sweep begins anew";
+    if (!found) throw UsageError(fmt::format("nothing says of which sweep '{}' is", file), hint);
     std::string why;
     if (found->key != identity.key)
         why = found->command == identity.command ? "the model has changed" : found->command;
@@ -59,7 +53,7 @@ void require_same(const std::string& file, const std::optional<SweepIdentity>& f
         why = found->build;
     else
         return;
-    throw UsageError(fmt::format("lagen sweep: '{}' is of another sweep: {}{}", file, why, hint));
+    throw UsageError(fmt::format("'{}' is of another sweep: {}", file, why), hint);
 }
 
 } // namespace
@@ -136,12 +130,11 @@ SweepFile::SweepFile(std::string path, const SweepIdentity& identity, const std:
     struct stat status {};
     if (::stat(path_.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
         errno = S_ISDIR(status.st_mode) ? EISDIR : EINVAL;
-        refuse_writing(path_);
+        refuse_writing(path_, errno);
     }
     file_ = open_locked(partial_, false);
-    if (file_ < 0 && errno == EWOULDBLOCK)
-        throw UsageError(fmt::format("lagen sweep: another sweep is writing '{}'", partial_));
-    if (file_ < 0) refuse_writing(partial_);
+    if (file_ < 0 && errno == EWOULDBLOCK) throw UsageError(fmt::format("another sweep is writing '{}'", partial_));
+    if (file_ < 0) refuse_writing(partial_, errno);
     start(heading, resume);
 }
 
@@ -176,7 +169,7 @@ SweepFile::~SweepFile()
 
 void SweepFile::begin(const std::string& heading)
 {
-    if (::ftruncate(file_, 0) != 0 || ::lseek(file_, 0, SEEK_SET) != 0) refuse_writing(partial_);
+    if (::ftruncate(file_, 0) != 0 || ::lseek(file_, 0, SEEK_SET) != 0) refuse_writing(partial_, errno);
     write_identity(path_, identity_);
     write(heading);
 }
@@ -186,10 +179,8 @@ void SweepFile::see(std::string_view row)
 {
     const std::uint64_t index = identity_.shard.index + rows_ * identity_.shard.count;
     if (!row.starts_with(std::to_string(index) + ","))
-        throw UsageError(
-            fmt::format("lagen sweep: '{}' does not hold row {} where it must stand\nhint: without --resume "
-                        "the sweep begins anew",
-                        partial_, index));
+        throw UsageError(fmt::format("'{}' does not hold row {} where it must stand", partial_, index),
+                         "without --resume the sweep begins anew");
     ++rows_;
     ++statuses_[std::string(row.substr(row.rfind(',') + 1))];
 }
@@ -213,9 +204,9 @@ void SweepFile::go_on(const std::string& heading)
         whole += static_cast<off_t>(begin);
         text.erase(0, begin);
     }
-    if (count < 0) refuse_writing(partial_);
+    if (count < 0) refuse_writing(partial_, errno);
     if (!headed) return begin(heading);
-    if (::ftruncate(file_, whole) != 0 || ::lseek(file_, whole, SEEK_SET) != whole) refuse_writing(partial_);
+    if (::ftruncate(file_, whole) != 0 || ::lseek(file_, whole, SEEK_SET) != whole) refuse_writing(partial_, errno);
 }
 
 void SweepFile::write(std::string_view lines)
@@ -224,7 +215,7 @@ void SweepFile::write(std::string_view lines)
         const ssize_t count = ::write(file_, lines.data(), lines.size());
         if (count < 0 && errno == EINTR) continue;
         if (count < 0)
-            refuse_writing(partial_, fmt::format("\nhint: {} rows stay in it; --resume goes on with them", rows_));
+            refuse_writing(partial_, errno, fmt::format("{} rows stay in it; --resume goes on with them", rows_));
         lines.remove_prefix(static_cast<std::size_t>(count));
     }
 }
@@ -239,7 +230,7 @@ void SweepFile::append(std::string_view lines)
 void SweepFile::complete()
 {
     if (file_ < 0) return;
-    if (!put_in_place(file_, partial_, path_)) refuse_writing(path_);
+    if (!put_in_place(file_, partial_, path_)) refuse_writing(path_, errno);
     ::close(file_);
     file_ = -1;
     identity_.complete = true;

@@ -19,7 +19,7 @@ constexpr std::uint64_t most_sweep_rows = 1'000'000'000'000'000;
 
 [[noreturn]] void refuse_range(const SweepRequest::Range& range, const std::string& what)
 {
-    throw UsageError(fmt::format("lagen sweep: --{} {}: {}", range.name.option, range.text, what));
+    throw UsageError(fmt::format("--{} {}: {}", range.name.option, range.text, what));
 }
 
 /// True where the value of a parameter follows from that of another one.
@@ -69,8 +69,7 @@ SweepRows grid_rows(std::vector<SweptName> names, std::vector<GridAxis> axes)
 {
     SweepRows rows{std::move(names), 1, "grid", {}};
     for (const GridAxis& axis : axes) {
-        if (axis.count > most_sweep_rows / rows.count)
-            throw UsageError("lagen sweep: the grid has more than 1e15 points");
+        if (axis.count > most_sweep_rows / rows.count) throw UsageError("the grid has more than 1e15 points");
         rows.count *= axis.count;
     }
     std::vector<std::uint64_t> at(axes.size(), most_sweep_rows);
@@ -117,19 +116,18 @@ void require_constants(const Model& model, const SweepRows& rows)
     for (const Parameter& parameter : model.parameters)
         for (const SweptName& name : rows.names)
             if (parameter.bound && name.option == "set" && follows_from(model, parameter, name.name))
-                throw UsageError(
-                    fmt::format("lagen sweep: '{}' is bound, and its value follows from '{}', which is swept",
-                                parameter.symbol.name, name.name));
+                throw UsageError(fmt::format("'{}' is bound, and its value follows from '{}', which is swept",
+                                             parameter.symbol.name, name.name));
 }
 
 SweepRequest::SweepRequest(const Options& options)
 {
     const bool random = options.has("random"), ensemble = options.has("ensemble");
-    if (random && ensemble) throw UsageError("lagen sweep: --random and --ensemble exclude each other");
-    if (options.has("seed") && !random) throw UsageError("lagen sweep: --seed needs --random");
+    if (random && ensemble) throw UsageError("--random and --ensemble exclude each other");
+    if (options.has("seed") && !random) throw UsageError("--seed needs --random");
     for (const auto& [option, text] : options.given()) {
         if (option != "set" && option != "initial") continue;
-        Setting setting = read_setting("sweep", option, text);
+        Setting setting = read_setting(option, text);
         Range range{{option, setting.name}, parts_of_range(setting.value), text};
         if (range.parts.size() == 1) {
             (option == "set" ? settings : initial).push_back(std::move(setting));
@@ -142,8 +140,8 @@ SweepRequest::SweepRequest(const Options& options)
     }
     options.add_bindings(settings);
     if (ranges.empty() && !ensemble)
-        throw UsageError("lagen sweep: nothing is swept: give ranges (--set a=0:2:101, --initial x=-1:1:21), with "
-                         "--random N or without, or --ensemble FILE.csv");
+        throw UsageError("nothing is swept: give ranges (--set a=0:2:101, --initial x=-1:1:21), with --random N or "
+                         "without, or --ensemble FILE.csv");
 }
 
 SweepRows sweep_rows(const Options& options, const SweepRequest& request, const Model& model, const Scene& scene)

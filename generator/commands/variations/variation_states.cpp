@@ -113,8 +113,8 @@ class VariationStates {
     {
         const auto known = [&](const Symbol& symbol) { return symbol.name == setting.name; };
         if (std::ranges::none_of(model_.fibre.coordinates, known))
-            throw UsageError(fmt::format("lagen run: '{}' of --jacobi-field is no fibre coordinate of model '{}'",
-                                         setting.name, model_.name));
+            throw UsageError(
+                fmt::format("'{}' of --jacobi-field is no fibre coordinate of model '{}'", setting.name, model_.name));
         const Tree value = option_tree(model_, "jacobi-field", setting.value);
         scene_.initial.push_back({"delta." + setting.name, value, setting.value.range(0, 0)});
     }
@@ -131,7 +131,7 @@ VariationRequest variations_of(const Options& options)
 {
     VariationRequest request;
     if (options.has("variations")) request.count = whole_option(options, "variations", 1, most_variations);
-    if (options.has("seed") && request.count == 0) throw UsageError("lagen run: --seed needs --variations");
+    if (options.has("seed") && request.count == 0) throw UsageError("--seed needs --variations");
     if (options.has("seed")) request.seed = whole_option(options, "seed", 0);
     request.field = options.named("jacobi-field");
     return request;
