@@ -10,6 +10,7 @@
 #include "graph/simplify/simplify.hpp"
 #include "model/scene_form.hpp"
 #include "text/activity.hpp"
+#include "text/comma_list.hpp"
 #include "text/content_hash.hpp"
 #include "verify/control_maximum.hpp"
 #include "verify/leaf.hpp"
@@ -25,9 +26,7 @@ namespace {
 
 std::string names_of(const Check& check)
 {
-    std::string text;
-    for (const std::string& index : check.indices) text += (text.empty() ? "" : ", ") + index;
-    return text.empty() ? check.name : fmt::format("{} ({})", check.name, text);
+    return check.indices.empty() ? check.name : fmt::format("{} ({})", check.name, comma_list(check.indices));
 }
 
 std::vector<std::string> lines_of(const std::string& text)

@@ -10,6 +10,7 @@
 #include "expression/parse.hpp"
 #include "model/scene_form.hpp"
 #include "pipeline.hpp"
+#include "text/comma_list.hpp"
 
 #include <fmt/format.h>
 
@@ -42,13 +43,6 @@ const CommandSyntax derive_syntax{"derive",
                                    option::output,
                                    option::set,
                                    {"format,f", "FORMAT", "text, latex or json", "text"}}};
-
-std::string momenta_of(const Model& model)
-{
-    std::string names;
-    for (const Symbol& each : model.fibre.momenta) names += (names.empty() ? "" : ", ") + each.name;
-    return names;
-}
 
 /// Whether a name is a base coordinate, a momentum, a parameter or the time.
 bool is_on_dual(const Model& model, const std::string& name)
@@ -83,7 +77,7 @@ std::vector<Tree> bracket_functions(const Options& options, const Model& model, 
             if (!is_on_dual(model, used))
                 throw ModelError(
                     fmt::format("'{}' is no function of base coordinates and momenta: it depends on '{}'", text, used),
-                    excerpt.range(0, text.size()), fmt::format("the momenta are {}", momenta_of(model)));
+                    excerpt.range(0, text.size()), "the momenta are " + comma_list(model.fibre.momenta, &Symbol::name));
     }
     return functions;
 }

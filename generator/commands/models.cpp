@@ -5,6 +5,7 @@
 #include "commands/machine/places.hpp"
 #include "commands/machine/write_file.hpp"
 #include "elaborate/make_frame.hpp"
+#include "text/comma_list.hpp"
 #include "text/record.hpp"
 
 #include <fmt/core.h>
@@ -37,9 +38,7 @@ Record record_of(const std::string& file, const Model& model)
 
 std::string model_line(const Model& model, std::size_t width)
 {
-    std::string scenes;
-    for (const Scene& scene : model.scenes) scenes += (scenes.empty() ? "" : ", ") + scene.name;
-    return fmt::format("  {:<{}}  {} [{}]\n", model.name, width, model.title, scenes);
+    return fmt::format("  {:<{}}  {} [{}]\n", model.name, width, model.title, comma_list(model.scenes, &Scene::name));
 }
 
 } // namespace

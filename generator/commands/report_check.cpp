@@ -4,6 +4,7 @@
 #include "commands/describe_check.hpp"
 #include "commands/report_nonholonomic.hpp"
 #include "model/families.hpp"
+#include "text/comma_list.hpp"
 
 #include <fmt/format.h>
 
@@ -31,10 +32,9 @@ const char* kind_text(Regularity::Kind kind)
 template <class Values>
 std::string values_text(const Values& values, const char* prefix)
 {
-    std::string text;
-    for (const auto& [name, value] : values)
-        text += fmt::format("{}{}{} = {}", text.empty() ? "" : ", ", prefix, name, to_text(value));
-    return text;
+    return comma_list(values, [&](const auto& entry) {
+        return fmt::format("{}{} = {}", prefix, entry.first, to_text(entry.second));
+    });
 }
 
 std::string witness_text(const NamedPoint& point)
@@ -44,9 +44,7 @@ std::string witness_text(const NamedPoint& point)
 
 std::string indices_text(const Check& check)
 {
-    std::string text;
-    for (const std::string& index : check.indices) text += (text.empty() ? "" : ", ") + index;
-    return text.empty() ? "" : fmt::format(" ({})", text);
+    return check.indices.empty() ? "" : fmt::format(" ({})", comma_list(check.indices));
 }
 
 /// The names of checks in order of first appearance.
@@ -72,12 +70,11 @@ std::array<std::size_t, 3> counts_of(const StructureReport& structure, const std
 
 std::string counts_text(const std::array<std::size_t, 3>& counts)
 {
-    std::string text;
-    for (const ProofStatus status : {ProofStatus::proved, ProofStatus::refuted, ProofStatus::undecided}) {
-        const std::size_t count = counts[static_cast<std::size_t>(status)];
-        if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, to_text(status));
-    }
-    return text;
+    return comma_list(std::array{ProofStatus::proved, ProofStatus::refuted, ProofStatus::undecided},
+                      [&](ProofStatus status) {
+                          const std::size_t count = counts[static_cast<std::size_t>(status)];
+                          return count == 0 ? "" : fmt::format("{} {}", count, to_text(status));
+                      });
 }
 
 /// "24 equations zero by structure, 12 proved"
@@ -88,7 +85,7 @@ std::string summary_text(const StructureReport& structure)
                                                        : fmt::format("{} {} zero by structure", structure.trivial,
                                                                      structure.trivial == 1 ? "equation" : "equations");
     if (trivial.empty() && counts.empty()) return "";
-    return fmt::format("  {}{}{}\n", trivial, trivial.empty() || counts.empty() ? "" : ", ", counts);
+    return fmt::format("  {}\n", comma_list(std::array{trivial, counts}));
 }
 
 std::string failure_text(const Check& check, bool with_hint)
@@ -165,9 +162,8 @@ std::string regularity_text(const Regularity& regularity)
     for (const auto& vector : regularity.kernel)
         text += fmt::format("  {:<16}kernel vector {}\n", "", values_text(vector, "k_"));
     if (!regularity.evidence.empty()) text += fmt::format("  {:<16}{}\n", "", regularity.evidence);
-    std::string equations;
-    for (const std::string& factor : regularity.singular_where)
-        equations += fmt::format("{}{} = 0", equations.empty() ? "" : " or ", factor);
+    const std::string equations = comma_list(
+        regularity.singular_where, [](const std::string& factor) { return factor + " = 0"; }, " or ");
     if (!equations.empty()) text += fmt::format("  {:<16}singular where {}\n", "", equations);
     if (regularity.singular_everywhere)
         text += fmt::format("  {:<16}singular everywhere for the parameter values of the file\n", "");

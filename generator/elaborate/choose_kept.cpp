@@ -2,6 +2,7 @@
 #include "elaborate/choose_kept.hpp"
 
 #include "graph/calculus/differentiate.hpp"
+#include "text/comma_list.hpp"
 
 #include <fmt/format.h>
 
@@ -33,9 +34,7 @@ void append_open(BuildWorkspace& work, const Tree& minor, std::vector<Tree>& ope
 /// "v_x, v_th"
 std::string listed_names(const std::vector<Symbol>& symbols, const Places& places)
 {
-    std::string text;
-    for (const std::size_t place : places) text += (text.empty() ? "" : ", ") + symbols[place].name;
-    return text;
+    return comma_list(places, [&](std::size_t place) { return symbols[place].name; });
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include "elaborate/singular_point.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "proof/enclosure.hpp"
+#include "text/comma_list.hpp"
 
 #include <fmt/format.h>
 
@@ -217,9 +218,8 @@ class FrameBuilder {
         }
         const auto point = common_zero(graph, functions, x_, work_->setting().domain, fixed);
         if (!point) return;
-        std::string text;
-        for (const auto& [name, value] : *point)
-            text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, to_text(value));
+        std::string text = comma_list(
+            *point, [](const auto& entry) { return fmt::format("{} = {}", entry.first, to_text(entry.second)); });
         for (const auto& [parameter, value] : fixed)
             if (depends_on_any(graph, h_, std::vector{parameter}))
                 text += fmt::format(", {} = {}", graph.input_name(parameter), value.get_str());

@@ -3,6 +3,7 @@
 
 #include "emit/text_block.hpp"
 #include "text/alphabet.hpp"
+#include "text/comma_list.hpp"
 
 namespace lagen {
 namespace {
@@ -126,7 +127,7 @@ class TreeWriter {
             return {"c" + below(first) + enclosed(write(arguments[1], Hold::sum)), spelling_.call};
         std::vector<std::string> texts{first};
         for (std::size_t k = 1; k < arguments.size(); ++k) texts.push_back(write(arguments[k], Hold::sum));
-        return {entry.*spelling_.function + enclosed(joined(texts)), spelling_.call};
+        return {entry.*spelling_.function + enclosed(comma_list(texts)), spelling_.call};
     }
 
     Piece write_sum(const Tree& tree)
@@ -233,7 +234,7 @@ std::string EquationWriter::left_side(const Equation& equation) const
     case LeftSide::component: {
         std::vector<std::string> arguments;
         for (const std::string& name : equation.arguments) arguments.push_back(spelling_.symbol(name));
-        return symbol + "(" + joined(arguments) + ")";
+        return symbol + "(" + comma_list(arguments) + ")";
     }
     case LeftSide::time_derivative: break;
     }

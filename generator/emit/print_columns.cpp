@@ -4,6 +4,7 @@
 #include "emit/spell.hpp"
 #include "graph/calculus/substitute.hpp"
 #include "graph/core/operators.hpp"
+#include "text/comma_list.hpp"
 
 #include <fmt/format.h>
 
@@ -130,7 +131,7 @@ std::vector<std::string> print_columns(TextBlock& out, const KernelModule& modul
     std::vector<std::string> arguments_of_point;
     for (const KernelInput& input : kernel.inputs) arguments_of_point.push_back(input.name);
     arguments_of_point.emplace_back("known");
-    return {known + " known;", fmt::format("{}({});", point, joined(arguments_of_point)),
+    return {known + " known;", fmt::format("{}({});", point, comma_list(arguments_of_point)),
             fmt::format("sweep_columns<S, {}, {}, {}_rows, {}_columns>(", output.shape.rows, output.shape.columns,
                         kernel.name, kernel.name),
             fmt::format("    values, [&](const auto& v, auto& dv) {{ {}(known, v, dv); }});", columns)};

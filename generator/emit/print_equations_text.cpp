@@ -5,6 +5,7 @@
 #include "emit/print_equations.hpp"
 #include "emit/text_block.hpp"
 #include "text/alphabet.hpp"
+#include "text/comma_list.hpp"
 #include "text/diagnostic.hpp"
 
 #include <fmt/core.h>
@@ -167,12 +168,12 @@ void print_statement(std::string& text, const DecidedStatement& statement)
     const std::string margin(13, ' ');
     if (!statement.residual.empty() && statement.status != "proved") {
         text += margin + "residual";
-        if (!statement.component.empty()) text += "(" + joined(statement.component) + ")";
+        if (!statement.component.empty()) text += "(" + comma_list(statement.component) + ")";
         text += " " + on_one_line(statement.residual) + "\n";
     }
     std::vector<std::string> point;
     for (const auto& [name, value] : statement.witness) point.push_back(name + " = " + value);
-    if (!point.empty()) text += fmt::format("{}at {}: {:.17g}\n", margin, joined(point), statement.value);
+    if (!point.empty()) text += fmt::format("{}at {}: {:.17g}\n", margin, comma_list(point), statement.value);
     if (!statement.evidence.empty()) text += margin + "known: " + statement.evidence + "\n";
 }
 

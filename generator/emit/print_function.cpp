@@ -2,6 +2,7 @@
 #include "emit/print_function.hpp"
 
 #include "emit/spell.hpp"
+#include "text/comma_list.hpp"
 
 #include <fmt/format.h>
 
@@ -179,7 +180,7 @@ std::string part_arguments(const Body& body, const FunctionRequest& request, boo
         add(fmt::format("const std::array<S, {}>&", block->unknowns.size()), "solved_" + block->name);
     add(fmt::format("std::array<{}, {}>&", body.type, body.workspace), "work");
     for (const OutputArgument& output : request.outputs) add(output.type + "&", output.name);
-    return joined(arguments);
+    return comma_list(arguments);
 }
 
 void call_parts(TextBlock& out, const Body& body, const FunctionRequest& request)
@@ -242,7 +243,7 @@ std::string arguments_of(const Body& body, const FunctionRequest& request)
     }
     for (const OutputArgument& output : request.outputs)
         arguments.push_back(fmt::format("{}{}& {}", maybe_unused(output.used), output.type, output.name));
-    return joined(arguments);
+    return comma_list(arguments);
 }
 
 void open_block(TextBlock& out, const std::string& signature)

@@ -6,6 +6,7 @@
 #include "emit/print_kernel.hpp"
 #include "emit/spell.hpp"
 #include "graph/calculus/differentiate.hpp"
+#include "text/comma_list.hpp"
 
 #include <fmt/format.h>
 
@@ -118,7 +119,7 @@ void print_state(TextBlock& out, const KernelModule& module, const ModuleNames& 
     if (arguments.empty()) return;
     out.blank();
     out.comment("A state by names; members left out are zero.");
-    open_block(out, fmt::format("[[nodiscard]] static State state({}) noexcept", joined(arguments)));
+    open_block(out, fmt::format("[[nodiscard]] static State state({}) noexcept", comma_list(arguments)));
     out.line("State s;");
     std::size_t lane = 0;
     for (std::size_t k = 0; k < module.groups.size(); ++k)
@@ -133,7 +134,7 @@ std::string name_array(const std::string& array, const std::vector<Quantity>& qu
     std::vector<std::string> literals;
     for (const Quantity& quantity : quantities) literals.push_back(string_literal(quantity.name));
     return fmt::format("static constexpr std::array<const char*, {}> {} = {{{}}};", literals.size(), array,
-                       joined(literals));
+                       comma_list(literals));
 }
 
 /// The number of the parameter that is the step of a discrete motion.
@@ -198,7 +199,7 @@ void print_group_motion(TextBlock& out, const KernelModule& module)
         "Elements of the Lie algebra of the group that moves these lanes of State, for lagen::Rkmk4 and its like.");
     out.line(fmt::format("static constexpr int algebra_dimension = {};", module.motion.dimension));
     out.line(
-        fmt::format("static constexpr std::array<bool, {}> moved_by_group = {{{}}};", moved.size(), joined(moved)));
+        fmt::format("static constexpr std::array<bool, {}> moved_by_group = {{{}}};", moved.size(), comma_list(moved)));
 }
 
 /// What keeps matrices on their groups from step to step.
@@ -217,7 +218,7 @@ void print_matrices(TextBlock& out, const KernelModule& module, Includes& includ
         out.comment(fmt::format("Entries of the generators of {}, the group of {}: number, row, column, value.",
                                 comment_text(matrix.group), comment_text(matrix.name)));
         out.line(fmt::format("static constexpr std::array<GroupEntry, {}> group_generators_{} = {{{{{}}}}};",
-                             entries.size(), k, joined(entries)));
+                             entries.size(), k, comma_list(entries)));
         calls.push_back(
             fmt::format("stay_on_group<{}>(group_generators_{}, s0, s1, {});", matrix.size, k, matrix.first));
     }
@@ -239,7 +240,8 @@ void print_access(TextBlock& out, const std::string& what, const char* type, con
     out.line(fmt::format("[[nodiscard]] S& {}(std::size_t k) noexcept", what));
     out.line("{");
     out.indent(1);
-    out.line(fmt::format("constexpr std::array<S {}::*, {}> members = {{{}}};", type, members.size(), joined(members)));
+    out.line(
+        fmt::format("constexpr std::array<S {}::*, {}> members = {{{}}};", type, members.size(), comma_list(members)));
     out.line(fmt::format("return {}s.*members[k];", what));
     out.indent(-1);
     out.line("}");

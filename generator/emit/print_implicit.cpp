@@ -2,6 +2,7 @@
 #include "emit/print_function.hpp"
 #include "emit/print_kernel.hpp"
 #include "emit/spell.hpp"
+#include "text/comma_list.hpp"
 
 #include <fmt/format.h>
 
@@ -55,7 +56,7 @@ class ImplicitPrinter {
             arguments.push_back(maybe_unused(reads(start_, input) || reads(iteration_, input)) + type_of(input) + " " +
                                 input.name);
         open_block(out_, fmt::format("[[nodiscard]] status_t<S> solve_{}({}, std::array<S, {}>& z) const noexcept",
-                                     block_.name, joined(arguments), size_));
+                                     block_.name, comma_list(arguments), size_));
         block_.bracket ? print_bounds() : print_guess();
         block_.angles ? print_angles() : print_iteration();
         close_block(out_);
@@ -169,7 +170,7 @@ void follow_block(TextBlock& out, const KernelModule& module, const ModuleNames&
     if (!block.angles) {
         const Body body =
             write_body({*module.graph, names.locals, block.jacobian, {}, names.moving, Checking::none, {}, 0});
-        out.line(fmt::format("const std::array<S, {}> from = {{{}}};", size, joined(members)));
+        out.line(fmt::format("const std::array<S, {}> from = {{{}}};", size, comma_list(members)));
         out.line(fmt::format("const auto curvature = [&]([[maybe_unused]] const std::array<S, {}>& unknowns, "
                              "std::array<S, {}>& matrix) noexcept {{",
                              size, size * size));

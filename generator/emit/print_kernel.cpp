@@ -5,6 +5,7 @@
 #include "emit/print_function.hpp"
 #include "emit/print_series.hpp"
 #include "emit/spell.hpp"
+#include "text/comma_list.hpp"
 
 #include <fmt/format.h>
 
@@ -135,7 +136,7 @@ class KernelPrinter {
             std::vector<std::string> literals;
             for (const std::string& entry : output.entry_names) literals.push_back(string_literal(entry));
             out_.line(fmt::format("static constexpr std::array<const char*, {}> {}_names = {{{}}};", literals.size(),
-                                  name, joined(literals)));
+                                  name, comma_list(literals)));
         }
         if (!output.sparse) return;
         std::vector<std::string> rows;
@@ -148,7 +149,7 @@ class KernelPrinter {
                                  is_sparse() ? request_.name : output.name));
         for (const auto& [suffix, places] : {std::pair("rows", rows), std::pair("columns", columns)})
             out_.line(fmt::format("static constexpr std::array<int, {}> {}_{} = {{{}}};", places.size(), name, suffix,
-                                  joined(places)));
+                                  comma_list(places)));
         out_.blank();
     }
 
@@ -197,9 +198,9 @@ class KernelPrinter {
         out_.blank();
         out_.comment(
             fmt::format("The same as a dense matrix, shape ({}, {}).", output.shape.rows, output.shape.columns));
-        open_block(out_, fmt::format("[[nodiscard]] {} {}({}) const noexcept", type, kernel_.name, joined(types)));
+        open_block(out_, fmt::format("[[nodiscard]] {} {}({}) const noexcept", type, kernel_.name, comma_list(types)));
         out_.line(fmt::format("{} values;", request_.outputs[0].type));
-        out_.line(fmt::format("{}({}, values);", request_.name, joined(names)));
+        out_.line(fmt::format("{}({}, values);", request_.name, comma_list(names)));
         out_.line(fmt::format("{0} result = {0}::Zero();", type));
         if (!output.entries.empty())
             out_.line(fmt::format("for (std::size_t k = 0; k < {0}; ++k) result({1}_rows[k], {1}_columns[k]) = "

@@ -3,6 +3,7 @@
 
 #include "emit/print_function.hpp"
 #include "emit/spell.hpp"
+#include "text/comma_list.hpp"
 
 #include <fmt/format.h>
 
@@ -314,7 +315,7 @@ class SeriesPrinter {
             for (std::size_t l = 0; l < lanes; ++l)
                 entries.push_back(factors[used + (factor.nodes.size() == 1 ? 0 : l)]);
             used += factor.nodes.size();
-            series.push_back(fmt::format("Terms<S, {}>::of({})", lanes, joined(entries)));
+            series.push_back(fmt::format("Terms<S, {}>::of({})", lanes, comma_list(entries)));
         }
         out_.list(fmt::format("{}.keep({}, {{", sums.object, k_), series, "});");
     }

@@ -2,6 +2,7 @@
 #include "emit/spell.hpp"
 
 #include "graph/core/operators.hpp"
+#include "text/comma_list.hpp"
 
 #include <fmt/format.h>
 
@@ -11,12 +12,9 @@ namespace lagen {
 
 namespace {
 
-/// "a, b, c".
 std::string list_of(const std::vector<Expression>& expressions)
 {
-    std::string text;
-    for (const Expression& each : expressions) text += (text.empty() ? "" : ", ") + spell(each).text;
-    return text;
+    return comma_list(expressions, [](const Expression& each) { return spell(each).text; });
 }
 
 std::string enclose(const Spelling& spelling, int precedence)
@@ -127,9 +125,7 @@ Spelling spell_function(const Expression& call)
                 5};
     if (call.op == Op::stumpff)
         return {fmt::format("stumpff<{}, S>({})", call.payload, spell(call.operands[0]).text), 5};
-    std::string arguments;
-    for (const Expression& operand : call.operands) arguments += (arguments.empty() ? "" : ", ") + spell(operand).text;
-    return {fmt::format("{}({})", operator_of(call.op).spelling, arguments), 5};
+    return {fmt::format("{}({})", operator_of(call.op).spelling, list_of(call.operands)), 5};
 }
 
 std::string spell_check(const Statement& check)

@@ -69,11 +69,4 @@ void TextBlock::comment(std::string_view text)
     text_.append(4 * static_cast<std::size_t>(level_), ' ') += clean.empty() ? "///\n" : "/// " + clean + "\n";
 }
 
-std::string joined(const std::vector<std::string>& parts)
-{
-    std::string text;
-    for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
-    return text;
-}
-
 } // namespace lagen

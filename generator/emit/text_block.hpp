@@ -27,7 +27,4 @@ class TextBlock {
     std::string text_;
 };
 
-/// "a, b, c".
-[[nodiscard]] std::string joined(const std::vector<std::string>& parts);
-
 } // namespace lagen

@@ -12,6 +12,7 @@
 #include "kernels/formulation.hpp"
 #include "mechanics/discrete.hpp"
 #include "mechanics/hamilton.hpp"
+#include "text/comma_list.hpp"
 
 #include <fmt/format.h>
 
@@ -339,10 +340,8 @@ namespace {
 /// "k_w1 = 1, k_w2 = x"
 std::string vector_text(const std::vector<std::pair<std::string, Tree>>& vector)
 {
-    std::string text;
-    for (const auto& [name, value] : vector)
-        text += fmt::format("{}k_{} = {}", text.empty() ? "" : ", ", name, to_text(value));
-    return text;
+    return comma_list(vector,
+                      [](const auto& entry) { return fmt::format("k_{} = {}", entry.first, to_text(entry.second)); });
 }
 
 void require_regular(const System& system, const Regularity& regularity)

@@ -5,6 +5,7 @@
 
 #include "model/families.hpp"
 #include "model/read_values.hpp"
+#include "text/comma_list.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -3,6 +3,7 @@
 #include "expression/find_part.hpp"
 #include "expression/name_hints.hpp"
 #include "model/model_reader.hpp"
+#include "text/comma_list.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -39,8 +40,7 @@ void require_roles(const std::vector<Tree>& closed, const Names& names, std::ini
 {
     const Tree bad = first_forbidden(closed, names, roles);
     if (bad == nullptr) return;
-    std::string allowed;
-    for (const Role each : distinct(roles)) allowed += (allowed.empty() ? "" : ", ") + role_plural(each);
+    const std::string allowed = comma_list(distinct(roles), role_plural);
     throw ModelError(fmt::format("{} may not depend on {} ('{}')", what,
                                  std::string_view(role_text(role_of(names, bad->name))), bad->name),
                      bad->where.file ? bad->where : where, "allowed here: " + allowed);

@@ -4,6 +4,7 @@
 
 #include "model/read_values.hpp"
 #include "model/table_reader.hpp"
+#include "text/comma_list.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

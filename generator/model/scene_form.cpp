@@ -6,6 +6,7 @@
 #include "model/read_curve.hpp"
 #include "model/table_reader.hpp"
 #include "model/total_cost.hpp"
+#include "text/comma_list.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -3,6 +3,7 @@
 
 #include "model/read_values.hpp"
 #include "model/table_reader.hpp"
+#include "text/comma_list.hpp"
 
 #include <fmt/format.h>
 

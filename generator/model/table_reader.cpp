@@ -2,6 +2,8 @@
 /// Known and unknown keys.
 #include "model/table_reader.hpp"
 
+#include "text/comma_list.hpp"
+
 #include <fmt/format.h>
 
 namespace lagen {
@@ -55,13 +57,6 @@ std::string hint_for(const std::string& unknown, const std::vector<std::string>&
     if (known.size() <= longest_list) return fmt::format("known {}: {}", noun, comma_list(known));
     const std::vector<std::string> first(known.begin(), known.begin() + static_cast<std::ptrdiff_t>(longest_list));
     return fmt::format("known {}: {}, ...", noun, comma_list(first));
-}
-
-std::string comma_list(const std::vector<std::string>& names)
-{
-    std::string text;
-    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-    return text;
 }
 
 } // namespace lagen

@@ -40,7 +40,4 @@ class TableReader {
 /// "did you mean 'x'?" for the nearest of `known`, else "known NOUN: a, b, c" (at most twenty of them), else "".
 [[nodiscard]] std::string hint_for(const std::string& unknown, const std::vector<std::string>& known, const char* noun);
 
-/// "a, b, c"
-[[nodiscard]] std::string comma_list(const std::vector<std::string>& names);
-
 } // namespace lagen

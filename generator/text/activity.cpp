@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "text/activity.hpp"
 
+#include "text/comma_list.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -37,9 +39,7 @@ std::string Activity::text() const
 std::string activities_text()
 {
     const std::lock_guard lock(activities_mutex);
-    std::string text;
-    for (const Activity* each : lasting) text += (text.empty() ? "" : ": ") + each->text();
-    return text;
+    return comma_list(lasting, &Activity::text, ": ");
 }
 
 } // namespace lagen

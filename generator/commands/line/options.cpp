@@ -4,6 +4,7 @@
 #include "commands/machine/write_file.hpp"
 #include "model/families.hpp"
 #include "scene/read_input_table.hpp"
+#include "text/comma_list.hpp"
 
 #include <boost/program_options.hpp>
 #include <fmt/core.h>
@@ -141,10 +142,8 @@ std::string Options::choice(const std::string& name, const std::vector<std::stri
 {
     const std::string value = get(name);
     if (std::find(allowed.begin(), allowed.end(), value) != allowed.end()) return value;
-    std::string list;
-    for (const std::string& entry : allowed) list += (list.empty() ? "" : ", ") + entry;
     const std::string nearest = nearest_name(value, allowed);
-    throw UsageError(fmt::format("--{} is '{}', it must be one of {}{}", name, value, list,
+    throw UsageError(fmt::format("--{} is '{}', it must be one of {}{}", name, value, comma_list(allowed),
                                  nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest)));
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/linearize/report.hpp"
 
+#include "text/comma_list.hpp"
 #include "text/record.hpp"
 
 #include <fmt/format.h>
@@ -81,14 +82,12 @@ std::string shape_text(const Eigen::VectorXcd& shape, const std::vector<std::str
     const auto at = [&](std::size_t k) { return shape[static_cast<Eigen::Index>(k)]; };
     std::ranges::stable_sort(
         order, [&](std::size_t a, std::size_t b) { return std::abs(at(a)) > (1 + 1e-9) * std::abs(at(b)); });
-    std::string text;
-    for (const std::size_t k : order) {
-        if (!(std::abs(at(k)) >= noticeable)) continue;
-        const bool real = at(k).imag() == 0;
-        text += fmt::format("{}{} {:.3g}", text.empty() ? "" : ", ", states[k], real ? at(k).real() : std::abs(at(k)));
-        if (!real) text += fmt::format(" at {:.0f} deg", std::arg(at(k)) * 180 / 3.14159265358979323846);
-    }
-    return text;
+    return comma_list(order, [&](std::size_t k) -> std::string {
+        if (!(std::abs(at(k)) >= noticeable)) return "";
+        if (at(k).imag() == 0) return fmt::format("{} {:.3g}", states[k], at(k).real());
+        return fmt::format("{} {:.3g} at {:.0f} deg", states[k], std::abs(at(k)),
+                           std::arg(at(k)) * 180 / 3.14159265358979323846);
+    });
 }
 
 /// How often, and how far apart its eigenvalues are, where a reader would see it.
@@ -129,10 +128,8 @@ std::string modes_text(const LinearReport& report)
 /// A pair once.
 std::string eigenvalues_text(const std::vector<Eigenvalue>& eigenvalues)
 {
-    std::string text;
-    for (const Eigenvalue& each : eigenvalues)
-        if (!(each.imag() < 0)) text += (text.empty() ? "" : ", ") + eigenvalue_text(each);
-    return text;
+    return comma_list(eigenvalues,
+                      [](const Eigenvalue& each) { return each.imag() < 0 ? std::string() : eigenvalue_text(each); });
 }
 
 std::vector<Eigenvalue> unreached(const LinearReport& report)

@@ -7,6 +7,7 @@
 #include "commands/machine/process.hpp"
 #include "commands/machine/temporary_folder.hpp"
 #include "commands/machine/write_file.hpp"
+#include "text/comma_list.hpp"
 #include "text/diagnostic.hpp"
 
 #include <fmt/core.h>
@@ -117,9 +118,7 @@ void add_compiler(ContentHash& hash, const std::vector<std::string>& command)
 
 std::string line_of(const std::vector<std::string>& command)
 {
-    std::string line;
-    for (const std::string& word : command) line += (line.empty() ? "" : " ") + word;
-    return line;
+    return comma_list(command, {}, " ");
 }
 
 void require_success(const std::vector<std::string>& command, const ProcessResult& result)

@@ -3,6 +3,7 @@
 
 #include "model/families.hpp"
 #include "text/alphabet.hpp"
+#include "text/comma_list.hpp"
 
 #include <fmt/core.h>
 
@@ -79,13 +80,6 @@ std::vector<Symbol> without_repetition(const std::vector<Symbol>& symbols)
     for (const Symbol& symbol : symbols)
         if (seen.insert(symbol.name).second) out.push_back(symbol);
     return out;
-}
-
-std::string list_text(const std::vector<Symbol>& symbols)
-{
-    std::string list;
-    for (const Symbol& symbol : symbols) list += (list.empty() ? "" : ", ") + symbol_text(symbol);
-    return list;
 }
 
 /// Several entries of one family: "x" for x[1], x[2], "Q[·,1]" for Q[1,1], Q[2,1]. Empty where they are of several.
@@ -217,7 +211,7 @@ std::string axis_label(const std::vector<Symbol>& symbols, int width, bool texts
         return shortened(symbol_text(all[0]), width);
     }
     const std::string together = entries_text(all);
-    const std::string full = with_unit(together.empty() ? list_text(all) : together, shared_unit(all));
+    const std::string full = with_unit(together.empty() ? comma_list(all, symbol_text) : together, shared_unit(all));
     return text_width(full) <= width ? full : shortened(short_label(all[0]), width - text_width(", ...")) + ", ...";
 }
 

@@ -4,6 +4,7 @@
 #include "commands/line/options.hpp"
 #include "commands/reduce/reduced_document.hpp"
 #include "expression/rewrite.hpp"
+#include "text/comma_list.hpp"
 #include "text/diagnostic.hpp"
 
 #include <algorithm>
@@ -50,9 +51,7 @@ class RouthDocument {
 
     [[nodiscard]] std::string comma_list_of_coordinates() const
     {
-        std::vector<std::string> names;
-        for (const std::size_t k : cyclic_) names.push_back(coordinate(k));
-        return fmt::format("{}", fmt::join(names, ", "));
+        return comma_list(cyclic_, [&](std::size_t k) { return coordinate(k); });
     }
 
     /// The names that are not cyclic as the list `key`, which must have all of them one by one where it is there.

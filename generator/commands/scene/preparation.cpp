@@ -4,6 +4,7 @@
 #include "mechanics/quadrature.hpp"
 #include "methods/integrate_compiled.hpp"
 #include "model/form.hpp"
+#include "text/comma_list.hpp"
 #include "text/content_hash.hpp"
 #include "verify/self_adjoint.hpp"
 
@@ -19,10 +20,9 @@ namespace {
 
 std::string point_text(const NamedPoint& point)
 {
-    std::string text;
-    for (const auto& [name, value] : point)
-        text += fmt::format("{}{} = {:.6g}", text.empty() ? "" : ", ", name, to_double(value));
-    return text.empty() ? "every point" : text;
+    if (point.empty()) return "every point";
+    return comma_list(
+        point, [](const auto& entry) { return fmt::format("{} = {:.6g}", entry.first, to_double(entry.second)); });
 }
 
 /// Kernels of a header that methods over compiled models, events, rows and what is followed along a run do without.

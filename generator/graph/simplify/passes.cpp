@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "graph/simplify/passes.hpp"
 
+#include "text/comma_list.hpp"
+
 namespace lagen {
 namespace {
 
@@ -115,10 +117,7 @@ std::span<const Choices> strategies()
 
 std::string name_of(Choices strategy)
 {
-    std::string name;
-    for (const Pass& pass : table)
-        if ((pass.choice & strategy) != 0) name += (name.empty() ? "" : ", ") + std::string(pass.name);
-    return name;
+    return comma_list(table, [&](const Pass& pass) { return (pass.choice & strategy) != 0 ? pass.name : ""; });
 }
 
 } // namespace lagen
