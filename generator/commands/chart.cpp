@@ -81,7 +81,7 @@ ExitCode chart_stability(const Options& options, ChartRequest request, bool as_j
 {
     CheckedModel checked = read(model_path(options.positional()[0]), options.settings(), options.has("unchecked"));
     request.scene = scene_of(options, checked.model, options.named("initial"));
-    require_no_jumps(options, request.scene, "stability charts are made");
+    require_no_jumps(request.scene, "stability charts are made");
     request.form = form_of(checked.model, request.scene);
     std::vector<StabilityAxis> axes = stability_axes(options.get("over"), checked.model, request.scene);
     prove(checked);
@@ -118,8 +118,8 @@ ExitCode run_chart(Arguments arguments)
     CheckedModel checked = charted_model(options, model_path(options.positional()[0]));
     show_warnings(checked);
     request.scene = scene_of(options, checked.model, options.named("initial"));
-    require_curve(options, request.scene, "charts are made");
-    require_no_jumps(options, request.scene, "charts are made");
+    require_curve(request.scene, "charts are made");
+    require_no_jumps(request.scene, "charts are made");
     request.form = form_of(checked.model, request.scene);
     make_folder(folder);
     const Chart chart = make_chart(checked, request);

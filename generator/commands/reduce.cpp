@@ -186,7 +186,7 @@ ExitCode reduce_by_routh(const Options& options, const std::string& path)
     const Model& model = checked.model;
     require_apart(options, model);
     warn(checked.warnings);
-    for (const Scene& scene : model.scenes) require_no_jumps(options, scene, "Routh's reductions are made");
+    for (const Scene& scene : model.scenes) require_no_jumps(scene, "Routh's reductions are made");
     const std::vector<std::size_t> cyclic = coordinates_to_reduce(model, split_list(options.get("routh")));
     const StructureReport free_of = cyclic_coordinates(checked.system);
     require_cyclic(model, free_of, cyclic);

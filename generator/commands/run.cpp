@@ -172,8 +172,8 @@ ExitCode run_run(Arguments arguments)
     require_apart(options, model);
     // What a chart chooses is chosen for the equations that it ran: those of the values.
     if (options.has("accuracy")) {
-        require_curve(options, scene_of(options, model, {}), "charts of an accuracy are made");
-        require_no_jumps(options, scene_of(options, model, {}), "charts of an accuracy are made");
+        require_curve(scene_of(options, model, {}), "charts of an accuracy are made");
+        require_no_jumps(scene_of(options, model, {}), "charts of an accuracy are made");
         bind_all_in_scene(checked.model, find_scene(model, options.get("scene")));
     } else if (options.has("bind"))
         bind_in_scene(checked.model, find_scene(model, options.get("scene")));
@@ -182,7 +182,7 @@ ExitCode run_run(Arguments arguments)
     const std::vector<std::string> overlaid = overlaid_scenes(options, model, scene);
     const bool stretch = options.has("at") && !options.has("t-end");
     const VariationRequest variations = variations_of(options);
-    if (variations.any()) require_no_jumps(options, scene, "variations are taken");
+    if (variations.any()) require_no_jumps(scene, "variations are taken");
     if (variations.any())
         add_variation_states(checked.model, elaborate(model), scene, variations,
                              sample_times(scene, evaluate_scene(model, scene), 1, stretch));

@@ -189,7 +189,7 @@ ExitCode run_morphism(const Options& options, const std::shared_ptr<const Source
     Scene scene = scene_of(options, from.model, options.named("initial"));
     require_form_of_target(scene.form, to.model, map);
     refuse_variational(scene);
-    require_no_jumps(options, scene, "images by a morphism are taken");
+    require_no_jumps(scene, "images by a morphism are taken");
     const bool reconstruct = options.has("reconstruct");
     if (reconstruct) require_lift(verified, scene.form);
     const MethodEntry& method = method_of(options, scene);

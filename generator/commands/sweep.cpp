@@ -176,7 +176,7 @@ ExitCode run_sweep(Arguments arguments)
     require_apart(options, model, {"ensemble"});
     if (options.has("bind")) bind_in_scene(checked.model, find_scene(model, options.get("scene")));
     Scene scene = scene_of(options, model, request.initial);
-    require_curve(options, scene, "sweeps are made");
+    require_curve(scene, "sweeps are made");
     const SweepRows rows = sweep_rows(options, request, model, scene);
     require_constants(model, rows);
     scene = with_swept(model, std::move(scene), rows);

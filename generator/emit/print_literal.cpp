@@ -15,7 +15,7 @@ namespace {
 /// The shortest decimal that reads back as the same double, with a point so that C++ takes it for a double.
 std::string print_double(double value)
 {
-    std::string text = value;
+    std::string text = fmt::format("{}", value);
     if (text.find_first_of(".e") == std::string::npos) text += ".0";
     return text;
 }

@@ -42,7 +42,7 @@ void append(std::string& text, const Record& record)
         append_entries(text, record, '[', ']', [&](const auto& entry) { append(text, *entry); });
     } else if (record.is_number_float()) {
         const auto number = record.get<double>();
-        text += std::isfinite(number) ? number : "null";
+        text += std::isfinite(number) ? fmt::format("{}", number) : "null";
     } else {
         text += dumped(record);
     }

@@ -99,7 +99,7 @@ std::string stability_csv(const StabilityChart& chart)
                 text += fmt::format("\r\n{},{}", method.name, chart.axes[0].values[i]);
                 if (two) text += fmt::format(",{}", chart.axes[1].values[j]);
                 text += fmt::format(",{},{},{},{},{}", cell.outcome, cell.t, cell.error,
-                                    has_drift(cell) ? cell.drift : "", cell.status);
+                                    has_drift(cell) ? fmt::format("{}", cell.drift) : "", cell.status);
             }
     return text + "\r\n";
 }

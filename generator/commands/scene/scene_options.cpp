@@ -192,14 +192,14 @@ Scene scene_of(const Options& options, const Model& model, const std::vector<Set
     return in_form(model, scene, options.has("form") ? options.get("form") : form_of(model, scene));
 }
 
-void require_curve(const Options& options, const Scene& scene, const char* what)
+void require_curve(const Scene& scene, const char* what)
 {
     if (!form_named(scene.form).steps) return;
     throw UsageError(fmt::format("{} of curves, and scene '{}' is a discrete motion", what, scene.name),
                      "--form lagrange, where the model has [lagrangian]");
 }
 
-void require_no_jumps(const Options& options, const Scene& scene, const char* what)
+void require_no_jumps(const Scene& scene, const char* what)
 {
     const auto jumps = [](const Event& event) { return !event.jump.empty(); };
     const auto event = std::ranges::find_if(scene.events, jumps);

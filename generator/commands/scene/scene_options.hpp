@@ -31,9 +31,9 @@ void set_initial(const Model& model, Scene& scene, const Setting& setting);
 [[nodiscard]] Tree time_scale_of(const Options& options, const Model& model);
 
 /// Throws where the form of the scene is a motion from step to step: `what` is made of curves.
-void require_curve(const Options& options, const Scene& scene, const char* what);
+void require_curve(const Scene& scene, const char* what);
 /// The same where an event of the scene jumps.
-void require_no_jumps(const Options& options, const Scene& scene, const char* what);
+void require_no_jumps(const Scene& scene, const char* what);
 /// The scene's method; UsageError or ModelError (by where the name stands) where it is unknown, lacks a step, or
 /// takes no time scale. Warns on standard error of what it does not use.
 [[nodiscard]] const MethodEntry& method_of(const Options& options, const Scene& scene);

@@ -122,7 +122,7 @@ void SweepRun::append_start(std::string& bytes, std::uint64_t index)
     std::string fields = std::to_string(index);
     std::vector<std::string> texts;
     for (const double value : rows_.values(index)) {
-        texts.push_back(value);
+        texts.push_back(fmt::format("{}", value));
         fields += ',' + texts.back();
     }
     pending_.push_back(std::move(fields));
