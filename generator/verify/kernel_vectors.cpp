@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/kernel_vectors.hpp"
 
+#include "graph/calculus/places.hpp"
 #include "graph/core/lower.hpp"
 #include "verify/reduced_fraction.hpp"
 
 #include <algorithm>
-#include <bit>
 
 namespace lagen {
 namespace {
@@ -141,16 +141,16 @@ std::optional<KernelVector> readable_vector(Graph& graph, const std::vector<std:
 std::optional<Block> nonzero_principal_minor(Graph& graph, const FibreHessian& hessian, const Block& block,
                                              const ZeroDecider& decider)
 {
-    for (std::size_t size = block.size(); size > 0; --size)
-        for (std::size_t set = 0; set < std::size_t{1} << block.size(); ++set) {
-            if (static_cast<std::size_t>(std::popcount(set)) != size) continue;
+    for (std::size_t size = block.size(); size > 0; --size) {
+        Places chosen = first_places(size);
+        do {
             Block part;
-            for (std::size_t k = 0; k < block.size(); ++k)
-                if (set >> k & 1U) part.push_back(block[k]);
+            for (const std::size_t k : chosen) part.push_back(block[k]);
             const ProofStatus status = decider.status(minor_determinant(graph, hessian, part, part));
             if (status == ProofStatus::refuted) return part;
             if (status == ProofStatus::undecided) return {};
-        }
+        } while (next_places(chosen, block.size()));
+    }
     return Block{};
 }
 

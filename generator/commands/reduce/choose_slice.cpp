@@ -5,6 +5,7 @@
 #include "expression/parse.hpp"
 #include "graph/calculus/determinant.hpp"
 #include "graph/calculus/differentiate.hpp"
+#include "graph/calculus/places.hpp"
 #include "graph/core/lower.hpp"
 #include "model/families.hpp"
 #include "verify/judge.hpp"
@@ -21,23 +22,6 @@ namespace {
 constexpr std::size_t most_choices = 2000;
 
 using FixedNodes = std::vector<std::optional<NodeId>>; // of each coordinate; nothing where it cannot be fixed
-
-/// All choices of `size` among `count`, in lexicographic order.
-std::vector<std::vector<std::size_t>> choices_of(std::size_t size, std::size_t count)
-{
-    std::vector<std::vector<std::size_t>> out;
-    std::vector<std::size_t> choice(size);
-    for (std::size_t k = 0; k < size; ++k) choice[k] = k;
-    while (out.size() < most_choices && size <= count) {
-        out.push_back(choice);
-        std::size_t k = size;
-        while (k > 0 && choice[k - 1] == count - size + k - 1) --k;
-        if (k == 0) break;
-        ++choice[k - 1];
-        for (; k < size; ++k) choice[k] = choice[k - 1] + 1;
-    }
-    return out;
-}
 
 FixedNodes start_values(Graph& graph, const Model& model)
 {
@@ -89,8 +73,11 @@ Slice choose_slice(Graph& graph, const CheckedModel& checked, const Infinitesima
     std::optional<Slice> crossed, touched;
     Judge judge(graph, proof_setting(graph, whole), {});
     const auto vanishes = [&](NodeId f) { return judge.decide(f).status != ProofStatus::refuted; };
-    for (const FixedNodes& values : offers)
-        for (const std::vector<std::size_t>& choice : choices_of(size, whole.n())) {
+    for (const FixedNodes& values : offers) {
+        if (size > whole.n()) break;
+        Places choice = first_places(size);
+        std::size_t tried = 0;
+        do {
             Slice slice{choice, {}};
             for (const std::size_t k : choice)
                 if (values[k]) slice.values.push_back(*values[k]);
@@ -103,7 +90,8 @@ Slice choose_slice(Graph& graph, const CheckedModel& checked, const Infinitesima
                 if (!vanishes(substitute(graph, only, start)[0])) crossed = slice;
             } catch (const DivisionByZero&) { // the field has no value there
             }
-        }
+        } while (++tried < most_choices && next_places(choice, whole.n()));
+    }
     if (crossed) return *crossed;
     if (touched) return *touched;
     throw MathematicsError(
