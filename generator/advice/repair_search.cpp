@@ -2,13 +2,166 @@
 /// Trials in order of plausibility: signs, values that the anchor asks for, multiples of entries, missing entries. A
 /// trial is first looked at where the equations were refuted; what vanishes there is decided like any model.
 #include "advice/repair_search.hpp"
-#include "advice/describe_repair.hpp"
-#include "advice/solve_entry.hpp"
+
+#include "advice/repair.hpp"
+#include "graph/core/lower.hpp"
+#include "verify/judge.hpp"
 
 #include <algorithm>
+#include <functional>
 
 namespace lagen {
+
 namespace {
+
+// Repairs in the words and in the order of the model file.
+
+constexpr std::size_t longest_value = 200; ///< characters; a longer one helps nobody
+
+/// Does the file have the pair (b, a) alone? Then the hint speaks of that order.
+bool is_reversed(const Algebroid& lowered, const EntryPlace& place)
+{
+    const std::size_t r = lowered.r();
+    return !place.anchor && lowered.given[place.b * r + place.a] && !lowered.given[place.a * r + place.b];
+}
+
+std::string owner(const WrittenAlgebroid& names, const Algebroid& lowered, const EntryPlace& place)
+{
+    if (place.anchor) return "the anchor of " + names.fibre[place.a].name;
+    const bool reversed = is_reversed(lowered, place);
+    return "[" + names.fibre[reversed ? place.b : place.a].name + ", " +
+           names.fibre[reversed ? place.a : place.b].name + "]";
+}
+
+std::string component(const WrittenAlgebroid& names, const EntryPlace& place)
+{
+    return "component " + (place.anchor ? names.base : names.fibre)[place.index].name;
+}
+
+/// The normal form, in the order of the file.
+std::string value_text(Graph& graph, Judge& judge, const Algebroid& lowered, const EntryPlace& place, NodeId value)
+{
+    const NodeId shown = is_reversed(lowered, place) ? graph.negate(value) : value;
+    return graph.is_zero(shown) ? "0" : judge.decide(shown).residual;
+}
+
+/// As the file has it.
+std::string given_text(const WrittenAlgebroid& names, const Algebroid& lowered, const EntryPlace& place)
+{
+    const bool reversed = is_reversed(lowered, place);
+    const std::size_t a = reversed ? place.b : place.a, b = reversed ? place.a : place.b;
+    if (place.anchor) {
+        for (const AnchorValue& entry : names.rho)
+            if (entry.a == a && entry.i == place.index) return to_text(entry.value);
+    } else {
+        for (const StructureValue& entry : names.C)
+            if (entry.a == a && entry.b == b && entry.c == place.index) return to_text(entry.value);
+    }
+    return "none";
+}
+
+/// Values that are numbers, as such: x*y/(y*x) is 1.
+Repair simplified(Graph& graph, Judge& judge, Repair repair)
+{
+    for (EntryChange& change : repair.changes) {
+        if (graph.is_constant(change.value)) continue;
+        const Decision& decision = judge.decide(change.value);
+        if (decision.status == ProofStatus::proved)
+            change.value = graph.constant(0);
+        else if (const NodeId value = decision.normal_form ? Lowering(graph)(decision.normal_form) : change.value;
+                 graph.is_constant(value))
+            change.value = value;
+    }
+    return repair;
+}
+
+/// Can the file have it? Not an entry that depends on the base in a bracket of constants.
+bool is_admissible(const Graph& graph, const Algebroid& algebroid, const Editable& editable, const Repair& repair)
+{
+    if (!editable.constant_bracket) return true;
+    return std::all_of(repair.changes.begin(), repair.changes.end(), [&](const EntryChange& change) {
+        if (change.place.anchor) return true;
+        const NodeId roots[] = {change.value};
+        const std::vector<NodeId> nodes = reachable(graph, roots);
+        return std::none_of(algebroid.x.begin(), algebroid.x.end(),
+                            [&](NodeId x) { return std::binary_search(nodes.begin(), nodes.end(), x); });
+    });
+}
+
+/// "[a, b] needs component c = V, given is W; with it <what> hold", or "<what> hold with ..."; empty where there is no
+/// repair or a value has a long text. The normal forms of values come from `judge`.
+std::string describe(Graph& graph, Judge& judge, const WrittenAlgebroid& names, const Algebroid& lowered,
+                     const std::vector<Repair>& repairs, const std::string& what)
+{
+    std::vector<std::string> phrases;
+    for (const Repair& repair : repairs) {
+        const auto& [place, value] = repair.changes.front();
+        const std::string whose = owner(names, lowered, place), which = component(names, place);
+        const std::string wanted = value_text(graph, judge, lowered, place, value);
+        const std::string given = given_text(names, lowered, place);
+        std::string phrase;
+        if (repair.kind == RepairKind::sign) {
+            phrase = "the opposite sign of " + which + " of " + whose;
+        } else if (repair.kind == RepairKind::order) {
+            phrase = "the opposite sign of " + whose + ", as if its sections were given in the wrong order";
+        } else if (wanted.size() > longest_value || given.size() > longest_value) {
+            continue;
+        } else if (repair.kind == RepairKind::needed && repairs.size() == 1) {
+            return whose + " needs " + which + " = " + wanted + ", given is " + given + "; with it " + what + " hold";
+        } else if (graph.is_zero(value)) {
+            phrase = whose + " without its " + which;
+        } else {
+            phrase = which + " = " + wanted + " of " + whose + " (given is " + given + ")";
+        }
+        // On a constraint one value has many forms, and the same normal form.
+        if (std::find(phrases.begin(), phrases.end(), phrase) == phrases.end()) phrases.push_back(phrase);
+    }
+    std::string text;
+    for (const std::string& phrase : phrases) text += (text.empty() ? what + " hold with " : ", or with ") + phrase;
+    return text;
+}
+
+// Values of one entry for which an equation vanishes at one point.
+// f(k) = f2 k^2 + f1 k + f0 from f(0), f(1), f(-1).
+
+/// The rational square root, where there is one.
+std::optional<Rational> square_root(const Rational& value)
+{
+    if (sgn(value) < 0 || mpz_perfect_square_p(value.get_num().get_mpz_t()) == 0 ||
+        mpz_perfect_square_p(value.get_den().get_mpz_t()) == 0)
+        return std::nullopt;
+    return Rational(sqrt(value.get_num()), sqrt(value.get_den()));
+}
+
+std::vector<Rational> roots(const Rational& f2, const Rational& f1, const Rational& f0)
+{
+    if (sgn(f2) == 0) return sgn(f1) == 0 ? std::vector<Rational>{} : std::vector<Rational>{-f0 / f1};
+    const std::optional<Rational> root = square_root(f1 * f1 - 4 * f2 * f0);
+    if (!root) return {};
+    return {(-f1 - *root) / (2 * f2), (-f1 + *root) / (2 * f2)};
+}
+
+/// The equation is at most quadratic in a factor k of the entry (in the entry itself where there is none): k solves
+/// it where `value` of a trial is known exactly. Rational k alone, other than 1 and -1; a root means something at the
+/// point alone, until it is decided.
+std::vector<Repair> solve_entry(Graph& graph, const Algebroid& algebroid, const EntryPlace& place,
+                                const std::function<std::optional<Rational>(const Repair&)>& value)
+{
+    const NodeId entry = value_at(graph, algebroid, place);
+    const NodeId unit = graph.is_zero(entry) ? graph.constant(1) : entry;
+    const auto repair = [&](const Rational& k) {
+        return Repair{RepairKind::value, {{place, graph.multiply(graph.constant(k), unit)}}};
+    };
+    const std::optional<Rational> at_one = value(repair(1)), at_zero = value(repair(0));
+    if (!at_one || !at_zero) return {};
+    const std::optional<Rational> at_minus_one = value(repair(-1));
+    if (!at_minus_one) return {};
+    const Rational even = (*at_one + *at_minus_one) / 2;
+    std::vector<Repair> repairs;
+    for (const Rational& k : roots(even - *at_zero, (*at_one - *at_minus_one) / 2, *at_zero))
+        repairs.push_back(repair(k));
+    return repairs;
+}
 
 constexpr std::size_t most_operations = 3'000'000; ///< in evaluations at points
 constexpr std::size_t most_proofs = 12;            ///< trials that are decided in full

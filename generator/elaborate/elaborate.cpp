@@ -6,24 +6,46 @@
 #include "elaborate/build_algebroid.hpp"
 #include "elaborate/build_distribution.hpp"
 #include "elaborate/build_groupoid.hpp"
-#include "elaborate/cancelled_time.hpp"
 #include "elaborate/lower_forms.hpp"
 #include "elaborate/model_trees.hpp"
 #include "elaborate/require_values.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/evaluate.hpp"
 #include "mechanics/scheme.hpp"
+#include "mechanics/system.hpp"
+#include "proof/decide.hpp"
 #include "proof/partial_parts.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <fmt/format.h>
 #include <map>
 #include <set>
 
 namespace lagen {
+
 namespace {
+
+// Functions that are written over t and do not depend on it: of places on a hoop that turns steadily.
+
+/// f at t = 0 where f is proved to be that at all points and times, else f.
+NodeId without_cancelled_time(Graph& graph, const System& system, NodeId f)
+{
+    const NodeId only[] = {f};
+    if (!depends_on_any(graph, only, std::vector{system.time})) return f;
+    const auto at_start = substitute_where_defined(graph, only, Replacements{{system.time, graph.constant(0)}});
+    if (!at_start) return f;
+    ProofSetting setting; // constraints are left out: they need not be triangular yet
+    for (const auto* inputs : {&system.algebroid.x, &system.algebroid.y, &system.mu, &system.inputs, &system.states})
+        setting.variables.insert(setting.variables.end(), inputs->begin(), inputs->end());
+    setting.variables.push_back(system.time);
+    setting.parameters = system.parameters;
+    setting.domain = system.domain;
+    setting.defined = {f};
+    const auto decider = ZeroDecider::make(graph, setting, {});
+    const bool same = decider && decider->status(graph.subtract(f, (*at_start)[0])) == ProofStatus::proved;
+    return same ? (*at_start)[0] : f;
+}
 
 class Elaboration {
   public:

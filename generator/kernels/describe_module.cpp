@@ -1,16 +1,38 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "kernels/describe_module.hpp"
 
-#include "kernels/group_lanes.hpp"
+#include "graph/kernel.hpp"
 #include "model/families.hpp"
-
-#include <fmt/format.h>
+#include "model/model.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace lagen {
 
 namespace {
+
+// The matrices of [reconstruct] among the lanes of a form.
+
+/// Those whose entries are among `states`, numbers of first-order states that stand behind `before` other lanes.
+std::vector<GroupLanes> group_lanes(const Model& model, const std::vector<std::size_t>& states, std::size_t before)
+{
+    std::vector<GroupLanes> matrices;
+    for (const Reconstruction& g : model.reconstructions) {
+        const auto place = std::ranges::find(states, g.first);
+        if (place == states.end()) continue;
+        GroupLanes& lanes = matrices.emplace_back();
+        lanes.name = g.name;
+        lanes.group = g.group;
+        lanes.first = before + static_cast<std::size_t>(place - states.begin());
+        lanes.size = g.size;
+        for (std::size_t c = 0; c < g.generators.size(); ++c)
+            for (std::size_t k = 0; k < g.size * g.size; ++k)
+                if (const Rational& value = g.generators[c].entries[k]->number; value != 0)
+                    lanes.generators.push_back({c, k / g.size, k % g.size, value});
+    }
+    return matrices;
+}
 
 Quantity quantity(const Symbol& symbol, NodeId input)
 {

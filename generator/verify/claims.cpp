@@ -2,15 +2,95 @@
 /// The setting in which the claims of a system are decided, and what is refused before.
 #include "verify/claims.hpp"
 
+#include "expression/find_part.hpp"
+#include "graph/core/lower.hpp"
 #include "verify/discrete_regularity.hpp"
 #include "verify/legendre_obstacle.hpp"
 #include "verify/proof_setting.hpp"
 #include "verify/regularity.hpp"
-#include "verify/zero_divisors.hpp"
+#include "verify/witness_point.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <set>
 
 namespace lagen {
+
+namespace {
+
+// Divisions by an expression that is zero everywhere, also where algebra or the base constraints are needed to see it.
+
+/// Looks through trees, in the order in which they are given; a divisor is looked at once.
+class ZeroDivisors {
+  public:
+    /// `setting`: variables, parameters, constraints and domain; what must be `defined` is left out, since nothing is
+    /// where a divisor vanishes.
+    ZeroDivisors(Graph& graph, ProofSetting setting, const ProofBudget& budget);
+
+    using Lower = std::function<NodeId(const Tree&)>;
+    /// Throws ModelError at the first divisor (b of a / b, a of a^-n) that is proved to be zero.
+    void refuse(const Tree& tree, const Lower& lower);
+
+  private:
+    [[nodiscard]] bool is_zero(NodeId node);
+
+    Graph& graph_;
+    ProofSetting setting_;
+    ZeroDecider decider_;
+    std::optional<WitnessPoint> point_; ///< where most divisors are seen not to vanish
+    PartSearch seen_;
+    std::set<NodeId> nonzero_; ///< looked at before
+};
+
+bool is_negative_number(const Tree& tree)
+{
+    if (tree->kind == TreeKind::negate)
+        return tree->arguments[0]->kind == TreeKind::number && tree->arguments[0]->number > 0;
+    return tree->kind == TreeKind::number && tree->number < 0;
+}
+
+/// The divisor at the root of a tree, or null.
+Tree divisor_of(const Tree& tree)
+{
+    if (tree->kind == TreeKind::divide) return tree->arguments[1];
+    if (tree->kind == TreeKind::power && is_negative_number(tree->arguments[1])) return tree->arguments[0];
+    return nullptr;
+}
+
+ProofSetting without_definedness(ProofSetting setting)
+{
+    setting.defined.clear();
+    return setting;
+}
+
+ZeroDivisors::ZeroDivisors(Graph& graph, ProofSetting setting, const ProofBudget& budget)
+    : graph_(graph), setting_(without_definedness(std::move(setting))), decider_(graph, setting_, budget)
+{
+    const auto point = decider_.sample_point();
+    if (point) point_.emplace(graph, *point);
+}
+
+bool ZeroDivisors::is_zero(NodeId node)
+{
+    if (graph_.is_constant(node)) return graph_.is_zero(node);
+    if (!nonzero_.insert(node).second || (point_ && !point_->may_vanish(node))) return false;
+    return decider_.status(node) == ProofStatus::proved;
+}
+
+void ZeroDivisors::refuse(const Tree& root, const Lower& lower)
+{
+    const auto divides_by_zero = [&](const Tree& part) {
+        const Tree divisor = divisor_of(part);
+        return divisor != nullptr && is_zero(lower(divisor));
+    };
+    const Tree quotient = seen_(root, divides_by_zero);
+    if (quotient == nullptr) return;
+    const Tree divisor = divisor_of(quotient);
+    throw ModelError("division by " + to_text(divisor) + ", which is zero everywhere", divisor->where,
+                     "a divisor must be nonzero somewhere on the domain");
+}
+
+} // namespace
 
 Claims::Claims(const System& system, const ProofBudget& budget)
     : system_(system), graph_(system.graph), partial_(graph_, system.algebroid.x),

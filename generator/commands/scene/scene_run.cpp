@@ -3,18 +3,62 @@
 
 #include "commands/machine/write_file.hpp"
 #include "commands/scene/branch_report.hpp"
-#include "commands/scene/domain_walls.hpp"
 #include "commands/scene/integrate_scene.hpp"
 #include "commands/scene/largest_step.hpp"
+#include "commands/scene/run_report.hpp"
 #include "commands/scene/second_run.hpp"
 #include "kernels/form_kernels.hpp"
 #include "kernels/non_finite.hpp"
+#include "model/model.hpp"
 #include "model/scene_form.hpp"
 #include "scene/read_input_table.hpp"
 
+#include <algorithm>
 #include <fmt/core.h>
 
 namespace lagen {
+
+namespace {
+
+// Walls of the domain: a condition a != b is left where a - b changes its sign, which may happen within one step. A
+// run watches for it as for an event that stops it.
+
+const std::string wall_name = "a wall of the domain"; ///< no name of an event in a model has spaces
+
+bool moves(const Tree& condition, const Model& model)
+{
+    return std::ranges::any_of(names_in(condition), [&](const std::string& name) {
+        return std::ranges::find(model.base.coordinates, name, &Symbol::name) != model.base.coordinates.end();
+    });
+}
+
+/// The scene, with its form, and of a motion in continuous time with such an event for each wall that can move away
+/// from the sign of its start; those of parameters alone cannot.
+Scene with_walls(const Model& model, Scene scene)
+{
+    scene.form = form_of(model, scene);
+    if (form_named(scene.form).steps) return scene;
+    for (const Tree& condition : model.base.domain) {
+        if (condition->comparison != Comparison::not_equal || !moves(condition, model)) continue;
+        Event wall;
+        wall.name = wall_name;
+        wall.when = add({condition->arguments[0], negate(condition->arguments[1])});
+        wall.stop = true;
+        scene.events.push_back(std::move(wall));
+    }
+    return scene;
+}
+
+/// A run that a wall has stopped has left the domain.
+void call_walls(RunOutcome& outcome)
+{
+    const bool stopped =
+        outcome.status == "stopped_by_event" && !outcome.events.empty() && outcome.events.back().name == wall_name;
+    if (stopped) outcome.status = "left_domain";
+    std::erase_if(outcome.events, [](const detail::FoundCrossing& event) { return event.name == wall_name; });
+}
+
+} // namespace
 
 SceneRun::SceneRun(const Options& options, CheckedModel& checked, Scene scene, const MethodEntry& method, bool stretch)
     : options_(options), checked_(checked), scene_(with_walls(checked.model, std::move(scene))), method_(method),
