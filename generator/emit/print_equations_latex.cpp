@@ -10,7 +10,7 @@
 namespace lagen {
 namespace {
 
-constexpr std::size_t line_width = 335; ///< points; the text of an `article` in 10 pt is 345 wide
+constexpr std::size_t text_width = 335; ///< points; the text of an `article` in 10 pt is 345 wide
 constexpr std::size_t indent = 10;      ///< points, of \quad
 /// \sum_{j=1, j \neq i}^{4}
 std::string sum_sign_latex(const Tree& sum)
@@ -141,7 +141,7 @@ std::string aligned(const std::vector<std::pair<std::string, std::string>>& left
     std::string text = "\\begin{align*}\n";
     for (std::size_t row = 0; row < lefts.size(); ++row) {
         text += "  " + lefts[row].first + lefts[row].second;
-        const std::vector<std::string> lines = right(row, std::min(widest, line_width / 2) + 12);
+        const std::vector<std::string> lines = right(row, std::min(widest, text_width / 2) + 12);
         for (std::size_t k = 0; k < lines.size(); ++k) text += (k == 0 ? "" : " \\\\\n  &\\quad ") + lines[k];
         text += row + 1 < lefts.size() ? " \\\\\n" : "\n";
     }
@@ -150,7 +150,7 @@ std::string aligned(const std::vector<std::pair<std::string, std::string>>& left
 
 std::vector<std::string> lines_of(const SignedTexts& terms, std::size_t margin)
 {
-    return wrap_terms(terms, margin, margin + indent, line_width, typeset_width);
+    return wrap_terms(terms, margin, margin + indent, text_width, typeset_width);
 }
 
 std::string block_text(const EquationBlock& block, const EquationWriter& writer)
@@ -176,7 +176,7 @@ std::string where_text(const EquationSet& equations, const LatexNames& names, co
                const WhereItem& item = items[row];
                if (item.values.size() == 1) return lines_of(writer.terms_of(item), margin);
                return wrap_entries(writer.entries_of(item), item.diagonal ? "\\operatorname{diag}(" : "(", ")", margin,
-                                   margin + indent, line_width, typeset_width);
+                                   margin + indent, text_width, typeset_width);
            });
 }
 

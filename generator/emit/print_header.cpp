@@ -21,6 +21,21 @@ namespace {
 
 // The first lines of a generated header, for its reader.
 
+/// Operations of the outputs as trees, every shared part counted at each of its uses (may be astronomical, hence
+/// double).
+double count_unshared(const Graph& graph, std::span<const NodeId> outputs)
+{
+    std::vector<double> count(graph.size(), 0);
+    for (const NodeId id : reachable(graph, outputs)) {
+        const Op op = graph.op(id);
+        for (const NodeId operand : graph.operands(id)) count[id] += count[operand];
+        if (kind_of(op) != OpKind::leaf && op != Op::component) count[id] += 1;
+    }
+    double total = 0;
+    for (const NodeId id : outputs) total += count[id];
+    return total;
+}
+
 std::string count_text(double count)
 {
     return count < 1e9 ? fmt::format("{:.0f}", count) : fmt::format("{:.1e}", count);
@@ -91,21 +106,6 @@ void print_equations(TextBlock& out, const KernelModule& module)
         for (auto each = first; each != line; ++each) out.comment(each->empty() ? "" : "  " + *each);
     }
     tell();
-}
-
-/// Operations of the outputs as trees, every shared part counted at each of its uses (may be astronomical, hence
-/// double).
-double count_unshared(const Graph& graph, std::span<const NodeId> outputs)
-{
-    std::vector<double> count(graph.size(), 0);
-    for (const NodeId id : reachable(graph, outputs)) {
-        const Op op = graph.op(id);
-        for (const NodeId operand : graph.operands(id)) count[id] += count[operand];
-        if (kind_of(op) != OpKind::leaf && op != Op::component) count[id] += 1;
-    }
-    double total = 0;
-    for (const NodeId id : outputs) total += count[id];
-    return total;
 }
 
 /// Licence, title, hash, how to regenerate, warnings, equations, operation counts, parameters and layout of the state.

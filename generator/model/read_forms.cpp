@@ -21,6 +21,19 @@ using Kind = FormExpression::Kind;
 
 constexpr std::size_t most_components = 5000; ///< of one form; a wedge product makes products of pairs of them
 
+/// Throws ModelError where a form of this degree has more components than can be looked at one by one.
+void require_few_components(std::size_t degree, std::size_t rank, const std::string& what, const SourceRange& where)
+{
+    std::size_t count = 1;
+    for (std::size_t k = 0; k < std::min(degree, rank - std::min(degree, rank)); ++k) {
+        count = count * (rank - k) / (k + 1);
+        if (count > most_components)
+            throw ModelError(fmt::format("{} has degree {} over {} fibre coordinates, which is more than {} components",
+                                         what, degree, rank, most_components),
+                             where);
+    }
+}
+
 class FormReader {
   public:
     FormReader(const ModelReader& reader, const std::string& what) : reader_(reader), what_(what) {}
@@ -202,19 +215,6 @@ class FormReader {
     const ModelReader& reader_;
     const std::string& what_;
 };
-
-/// Throws ModelError where a form of this degree has more components than can be looked at one by one.
-void require_few_components(std::size_t degree, std::size_t rank, const std::string& what, const SourceRange& where)
-{
-    std::size_t count = 1;
-    for (std::size_t k = 0; k < std::min(degree, rank - std::min(degree, rank)); ++k) {
-        count = count * (rank - k) / (k + 1);
-        if (count > most_components)
-            throw ModelError(fmt::format("{} has degree {} over {} fibre coordinates, which is more than {} components",
-                                         what, degree, rank, most_components),
-                             where);
-    }
-}
 
 /// Once the forms of the model are read. A section s is the name of a fibre coordinate, for the basis section e_s, or a
 /// vector of r components. `what` opens messages. Throws ModelError: a sum of different degrees, a product of two

@@ -9,6 +9,7 @@
 #include "support/dice.hpp"
 #include "support/json.hpp"
 #include "support/model_equations.hpp"
+#include "text/alphabet.hpp"
 
 #include <catch2/catch.hpp>
 

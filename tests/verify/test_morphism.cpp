@@ -30,7 +30,7 @@ Verified verified(const std::string& name)
 {
     Verified out;
     out.morphism = elaborate_whole(read_case(name));
-    out.report = verify(out.morphism, 3);
+    out.report = verify(out.morphism);
     return out;
 }
 
