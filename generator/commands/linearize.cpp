@@ -19,8 +19,8 @@ namespace lagen {
 
 namespace {
 
-// What --lqr says: 'Q=expr;R=expr' over parameters. A number stands for so many times the unit matrix, a vector for a
-// diagonal.
+// The value of --lqr is 'Q=expr;R=expr' over parameters. A number stands for so many times the unit matrix, a vector
+// for a diagonal.
 
 struct QuadraticCost {
     linear::Matrix Q, R; ///< shapes (n, n), (m, m)

@@ -48,7 +48,8 @@ struct Sides {
     std::vector<EquationSet> source, target;
 };
 
-/// Of `projects` and `paths`: a form and a component; of `constraint`, which is no form, what is carried.
+/// The row of a check: the first index of `projects` and `paths`, which names a form; `constraint` itself, which is
+/// none.
 std::string row_of(const Check& check)
 {
     return check.name == "constraint" ? check.name : check.indices[0];

@@ -15,7 +15,7 @@ namespace lagen {
 
 namespace {
 
-// What `check` says of a nonholonomic model beside its verdict.
+// Lines of `check` on a nonholonomic model, beside its verdict.
 
 /// "v_x = sin(th), v_y = -cos(th)"
 template <class Values>
@@ -93,7 +93,7 @@ void add_nonholonomic(Record& record, const MechanicsReport& mechanics)
         record["conserved"] = {{"name", energy->name}, {"status", to_text(energy->status)}};
 }
 
-// What a check says, in words.
+// Sentences that say what a check has decided.
 
 /// "a,b" of (A, a, b); "value" of a function.
 std::string component_of(const Check& check)
@@ -103,7 +103,7 @@ std::string component_of(const Check& check)
     return text.empty() ? "value" : text;
 }
 
-/// Of the claims of a morphism Phi over phi.
+/// The equation that a claim of a morphism Phi over phi makes, in words of its indices.
 std::string map_equation_text(const Check& check)
 {
     const std::vector<std::string>& k = check.indices;
@@ -131,7 +131,7 @@ std::string map_equation_text(const Check& check)
     return "";
 }
 
-/// What should vanish, in sections by name; empty for kinds whose name says it.
+/// The equation that a check decides, in sections by name; empty for kinds whose name says it.
 std::string equation_text(const Check& check)
 {
     const std::vector<std::string>& k = check.indices;

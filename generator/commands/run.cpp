@@ -127,7 +127,8 @@ void tell(const Options& options, const RunOutcome& outcome, const std::vector<s
     write_standard_error(start_note(outcome) + run_warnings(outcome));
 }
 
-/// What --plot draws, told; `whole` becomes false where one of the runs drawn beside did not come to its end.
+/// Draws the picture of --plot, and answers a sentence on it; `whole` becomes false where one of the runs drawn beside
+/// did not come to its end.
 std::string draw(const Options& options, const SceneRun& run, const RunOutcome& outcome,
                  const std::vector<std::string>& overlaid, bool& whole)
 {

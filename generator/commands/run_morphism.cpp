@@ -23,7 +23,7 @@ namespace lagen {
 
 namespace {
 
-/// What a run of one model has and that of two has not.
+/// Throws UsageError for options that the run of one model has and the run of two has not.
 void refuse_options(const Options& options)
 {
     for (const char* name : {"plot", "accuracy", "bind", "time-scale"})
@@ -32,7 +32,7 @@ void refuse_options(const Options& options)
                 fmt::format("--{} is of a model, and {} is a morphism", name, quote(options.positional()[0])));
 }
 
-/// What acts on the source from outside is not known as a function of the target.
+/// Throws where inputs act on a model of the morphism: those of the source are no functions of the target.
 void refuse_inputs(const MorphismFile& morphism)
 {
     for (const Model* model : {&source_of(morphism), &target_of(morphism)})
@@ -160,7 +160,7 @@ void add_lifts(const LiftedTarget& lifted, const SceneRun& source, Scene& image,
     }
 }
 
-/// Of a source that came to no row there is nothing to compare.
+/// Reports the run of the source alone, which came to no row that an image could be compared at.
 ExitCode tell_alone(const Options& options, const RunOutcome& source)
 {
     if (options.as_json())

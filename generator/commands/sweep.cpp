@@ -47,7 +47,7 @@ const CommandSyntax sweep_syntax{
      {"t-end", "T", "end of each run; without it the scene's duration"},
      option::unchecked}};
 
-/// What the rows follow from, as it was typed, in a line.
+/// The command line without the options that the rows do not depend on, in one line.
 std::string command_of(const Options& options)
 {
     std::string text = "lagen sweep " + options.positional()[0];
@@ -83,7 +83,7 @@ std::size_t threads_of(const Options& options)
                                  options.get("threads"), most_threads));
 }
 
-/// What became of the rows, for standard error.
+/// The lines on standard error that say how many rows there are, and how those failed that did.
 std::string summary(const std::string& path, const SweepFile& file, const std::map<std::string, std::string>& reasons)
 {
     std::string kinds, why;
@@ -99,7 +99,7 @@ std::string summary(const std::string& path, const SweepFile& file, const std::m
                        failed == 0 ? "" : fmt::format(", {} failed: {}", failed, kinds), why);
 }
 
-/// Of rows that were computed now.
+/// A warning where lanes of rows that were computed now stayed below the absolute tolerance; else "".
 std::string small_lanes_warning(const SweepRun& run, bool resumed)
 {
     const std::uint64_t count = run.rows_below_absolute();

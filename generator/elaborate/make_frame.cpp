@@ -339,7 +339,7 @@ class FrameBuilder {
                          "the motions are");
     }
 
-    /// Of the points that satisfy the constraints that are triangular, and the domain, none is found.
+    /// Throws where no point is found that satisfies the triangular constraints and the domain.
     void refuse_empty()
     {
         if (ZeroDecider(work_->graph(), work_->setting()).sample_point()) return;

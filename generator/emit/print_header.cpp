@@ -314,7 +314,7 @@ void print_group_motion(TextBlock& out, const KernelModule& module)
         fmt::format("static constexpr std::array<bool, {}> moved_by_group = {{{}}};", moved.size(), comma_list(moved)));
 }
 
-/// What keeps matrices on their groups from step to step.
+/// Prints the tables by which a run keeps matrices on their groups from step to step.
 void print_matrices(TextBlock& out, const KernelModule& module, Includes& includes)
 {
     if (module.matrices.empty()) return;

@@ -163,7 +163,7 @@ std::optional<std::vector<ClosedTree>> axis_of(const Maker& maker, const Value& 
     return std::vector<ClosedTree>{entries[7], entries[2], entries[3]};
 }
 
-/// What is missing of a matrix, for a message.
+/// The end of a message about a matrix of a size that vee and exp take: it is not seen to be skew. "" for other shapes.
 const char* unless_skew(const Value& a)
 {
     const bool small = a->shape == matrix_shape(2, 2) || a->shape == matrix_shape(3, 3);

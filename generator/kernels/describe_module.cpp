@@ -14,7 +14,7 @@ namespace {
 
 // The matrices of [reconstruct] among the lanes of a form.
 
-/// Those whose entries are among `states`, numbers of first-order states that stand behind `before` other lanes.
+/// The matrices whose entries are among `states`, numbers of first-order states that stand behind `before` other lanes.
 std::vector<GroupLanes> group_lanes(const Model& model, const std::vector<std::size_t>& states, std::size_t before)
 {
     std::vector<GroupLanes> matrices;
@@ -64,7 +64,7 @@ void describe_parameters(KernelModule& module, const Model& model, const System&
     module.parameter_defaults.push_back(graph.constant(0));
 }
 
-/// Of the first-order states that the form carries.
+/// The numbers of the first-order states that the form carries.
 std::vector<std::size_t> numbers_of(const System& system, const Formulation& form)
 {
     std::vector<std::size_t> numbers;

@@ -50,7 +50,7 @@ void require_free(const ModelReader& reader, const std::string& name, const Toml
                 entry.where(), "let it set fibre coordinates, which the matrix follows");
 }
 
-/// What coordinates, momenta and first-order states are behind a crossing, as expressions of the state before it.
+/// The values of coordinates, momenta and first-order states behind a crossing, as expressions of the state before it.
 /// `title` names the event in messages. Throws ModelError: a name that is none of the state's, given twice, or held by
 /// a constraint or a group; fibre coordinates beside momenta; a model with [control].
 std::vector<NamedTree> read_jump(const ModelReader& reader, const TomlEntry& block, const std::string& title)

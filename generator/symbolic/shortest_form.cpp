@@ -235,7 +235,7 @@ class Atoms {
     GiNaC::exmap forward_, back_;
 };
 
-/// Whether an expression is short when it is written out: in a sum of many terms each may have long divisors.
+/// True where an expression is short when it is written out: in a sum of many terms each may have long divisors.
 bool has_few_nodes(const GiNaC::ex& e)
 {
     std::size_t nodes = 0;
@@ -287,7 +287,7 @@ std::optional<GiNaC::ex> factored(const GiNaC::ex& e)
     return atoms.show(with_expanded_factors(GiNaC::factor(above)) / with_expanded_factors(GiNaC::factor(below)));
 }
 
-/// What both have in common: the factors of `a` with the smaller of both exponents.
+/// The common part of two products: the factors of `a` with the smaller of both exponents.
 std::vector<SortedFactor> common_factors(const std::vector<SortedFactor>& a, const std::vector<SortedFactor>& b)
 {
     std::vector<SortedFactor> common;

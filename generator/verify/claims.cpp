@@ -105,7 +105,7 @@ Claims::Claims(const System& system, const ProofBudget& budget)
         note_ = "no point was found where everything in the model is defined and every condition of [base] holds";
 }
 
-/// Those of the system's default form.
+/// The equations of motion in the system's default form.
 std::unique_ptr<EquationsOfMotion> Claims::equations_of_motion()
 {
     if (system_.control)
@@ -132,7 +132,7 @@ WhereConstant Claims::along_motions(EquationsOfMotion& motion, const Regularity&
     return {graph_, setting_, judge_->decider().budget(), conserved};
 }
 
-/// Those that a motion may meet.
+/// The divisors of a rate at whose zeros a motion may arrive.
 std::vector<NamedNode> Claims::divisors_of(const Rate& rate, const Regularity& regularity) const
 {
     const bool regular = regularity.kind == Regularity::Kind::regular && !regularity.for_given_parameters;

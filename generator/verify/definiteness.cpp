@@ -238,7 +238,7 @@ std::vector<ConvexPart> convex_parts(Graph& graph, NodeId f, const std::vector<N
     return Parts(graph, f, y).parts();
 }
 
-/// Whether a matrix has one entry, which is nowhere negative.
+/// True where a matrix has one entry, which is nowhere negative.
 bool is_nonnegative_number(const std::vector<NodeId>& entries, const ZeroDecider& decider)
 {
     return entries.size() == 1 && decider.proves_nonnegative(entries[0]);
@@ -275,7 +275,7 @@ const ColumnEntry* only_open(const Column& row, const std::vector<bool>& closed)
     return only;
 }
 
-/// Whether the sum of the squares is positive: one that is a number makes it so, whatever the others are.
+/// True where the sum of the squares is proved positive: one that is a number makes it so, whatever the others are.
 bool have_positive_squares(Graph& graph, const std::vector<NodeId>& slopes, const ZeroDecider& decider)
 {
     std::vector<NodeId> squares;

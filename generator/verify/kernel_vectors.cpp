@@ -39,7 +39,7 @@ Tree tree_of(Graph& graph, NodeId node, const Decision& decision, const Order& o
     return to_text(tree).size() <= longest_component ? tree : nullptr;
 }
 
-/// Whether W k = 0 is proved in the rows of a block.
+/// True where W k = 0 is proved in the rows of a block.
 bool is_in_kernel(Graph& graph, const FibreHessian& hessian, const Block& block, const std::vector<NodeId>& k,
                   const ZeroDecider& decider)
 {

@@ -28,7 +28,7 @@ Record criteria_of(const StabilityChart& chart)
     return criteria;
 }
 
-/// What `part` gives of each cell, a list a step.
+/// A list a step, with the value of `part` for each cell.
 template <class Part>
 Record cells_of(const StabilityChart& chart, const ChartedMethod& method, Part part)
 {

@@ -256,7 +256,7 @@ std::vector<std::string> command_in(const std::string& folder, const ProgramText
     return command;
 }
 
-/// Whether the compiler takes a text with these further arguments; what it makes is thrown away.
+/// True where the compiler takes a text with these further arguments; the result is thrown away.
 bool takes(const std::string& text, const std::vector<std::string>& arguments)
 {
     const TemporaryFolder scratch(shared_temporary_folder(), "lagen-look");

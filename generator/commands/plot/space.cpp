@@ -118,7 +118,7 @@ void add_axes(Drawing& drawing, const PanelRequest& request, const PictureProjec
     }
 }
 
-/// What lies on one side.
+/// Adds the parts of a curve that lie on one side of the sphere.
 void add_curve(Drawing& drawing, const SampledCurve& curve, std::size_t k, Pen pen, const PictureProjection& project,
                bool behind)
 {

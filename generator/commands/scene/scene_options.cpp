@@ -54,8 +54,8 @@ Plot curves_of(const Options& options, const Model& model)
     return plot;
 }
 
-/// What --plot draws: curves of the command line, or those of --like, or those of the scene. Without --plot it draws
-/// nothing.
+/// The picture of --plot shows curves of the command line, or those of --like, or those of the scene. Without --plot it
+/// draws nothing.
 void set_plot(const Options& options, const Model& model, Scene& scene)
 {
     if (!options.has("plot")) scene.plot.reset();

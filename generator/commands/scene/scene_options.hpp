@@ -18,7 +18,7 @@ inline constexpr const char* standard_method = "dop853";
 [[nodiscard]] Scene scene_of(const Options& options, const Model& model, const std::vector<Setting>& initial,
                              const std::optional<std::string>& name = {});
 
-/// Whether `initial` of the scene has momenta; else it has fibre coordinates, if any.
+/// True where `initial` of the scene has momenta; else it has fibre coordinates, if any.
 [[nodiscard]] bool starts_from_momenta(const Model& model, const Scene& scene);
 
 /// The names that `initial` of the scene gives numbers to, or may give.
@@ -27,7 +27,7 @@ inline constexpr const char* standard_method = "dop853";
 /// Gives the start of `scene` another value; ModelError where it has none of that name.
 void set_initial(const Model& model, Scene& scene, const Setting& setting);
 
-/// What --time-scale gives, closed over the model's names; null where it is not given.
+/// The expression of --time-scale, closed over the model's names; null where it is not given.
 [[nodiscard]] Tree time_scale_of(const Options& options, const Model& model);
 
 /// Throws where the form of the scene is a motion from step to step: `what` is made of curves.

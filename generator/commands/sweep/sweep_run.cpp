@@ -149,7 +149,7 @@ std::string SweepRun::next_starts()
     return bytes;
 }
 
-/// Of the start that the program was told not to integrate.
+/// The status of the start with this number, which the program was told not to integrate.
 const std::string& SweepRun::failed_status(const std::string& number) const
 {
     const std::optional<std::uint64_t> place = read_whole(number);
