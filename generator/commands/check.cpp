@@ -86,6 +86,8 @@ Answer check_one(const std::string& path, const Options& options)
         const auto file = std::make_shared<const SourceFile>(SourceFile{place, read_file(place)});
         if (is_morphism(file)) return check_morphism(read_morphism(file, options.settings(), choosers()), options);
         return check_model(read_model_text(place, file->text, options.settings(), choosers()), options);
+    } catch (const UsageError&) { // the same for every file
+        throw;
     } catch (const Error& error) {
         const std::string said = error.what();
         write_standard_error(said + (said.ends_with('\n') ? "" : "\n"));

@@ -50,7 +50,7 @@ TEST_CASE(
     const json::Value value = run({"oscillator.toml", "--at", "0,1/3,1"});
     CHECK(value.keys == std::vector<std::string>{"model", "scene", "form", "method", "status", "t", "state", "steps",
                                                  "rejected", "rhs_calls", "seconds", "accuracy", "below_absolute",
-                                                 "columns", "rows", "events", "invariants", "casimirs", "constraints"});
+                                                 "invariants", "casimirs", "constraints", "events", "columns", "rows"});
     CHECK(value["model"].text == "oscillator");
     CHECK(value["scene"].text == "default");
     CHECK(value["form"].text == "lagrange");

@@ -78,32 +78,34 @@ constexpr std::array without_model{
 
 /// Messages of a machine in trouble, or with paths of the machine in them.
 constexpr std::array of_the_machine{
+    "CXXFLAGS holds {}, with which a program cannot see that a number is not finite and loses its compensated sums",
+    "Eigen's headers (Eigen/Core) were not found",
+    "a program of the chart ended with exit code {}\n{}",
     "cannot be opened: {}",
     "cannot be read to its end",
-    "error: CXXFLAGS holds {}, with which a program cannot see that a number is not finite and loses its compensated "
-    "sums\n"
-    "hint: leave it out; -O3 -march=native is as fast here",
-    "error: Eigen's headers (Eigen/Core) were not found\nhint: set LAGEN_EIGEN_INCLUDE to the folder that holds Eigen/",
-    "error: a program of the chart ended with exit code {}\n{}",
-    "error: cannot make a folder in '{}': {}",
-    "error: cannot make a pipe: {}",
-    "error: cannot read '{}': {}",
-    "error: cannot wait for a child process: {}",
-    "error: gnuplot failed with exit code {}\n{}",
-    "error: the C++ compiler '{}' could not be started: {}",
-    "error: the C++ compiler failed with exit code {}\n{}\n{}{}",
-    "error: the compiled model could not be loaded: {}\nhint: remove '{}' to have it compiled again",
-    "error: the compiled scene could not be started: {}\nhint: remove '{}' to have it compiled again",
-    "error: the compiled scene ended with exit code {}\n{}",
-    "error: the example models were not found\nhint: set LAGEN_MODELS to their folder",
-    "error: the program of `run` (lagen_run/driver.hpp) was not found\nhint: it is installed with lagen, in "
-    "share/lagen/program beside bin/",
-    "error: the runtime's headers (lagen/kernel.hpp) were not found\nhint: set LAGEN_INCLUDE to the folder that holds "
-    "lagen/",
-    "error: there is nothing to plot: the run gave no rows",
-    "error: {}\nand neither is '{}': {}\nhint: set LAGEN_CACHE",
+    "cannot make a folder in '{}': {}",
+    "cannot make a pipe: {}",
+    "cannot wait for a child process: {}",
+    "gnuplot failed with exit code {}\n{}",
+    "it is installed with lagen, in share/lagen/program beside bin/",
     "lagen: interrupted while drawing",
     "lagen: interrupted, nothing was written",
+    "leave it out; -O3 -march=native is as fast here",
+    "remove '{}' to have it compiled again",
+    "set LAGEN_CACHE",
+    "set LAGEN_EIGEN_INCLUDE to the folder that holds Eigen/",
+    "set LAGEN_INCLUDE to the folder that holds lagen/",
+    "set LAGEN_MODELS to their folder",
+    "the C++ compiler '{}' could not be started: {}",
+    "the C++ compiler failed with exit code {}\n{}\n{}{}",
+    "the compiled model could not be loaded: {}",
+    "the compiled scene could not be started: {}",
+    "the compiled scene ended with exit code {}\n{}",
+    "the example models were not found",
+    "the program of `run` (lagen_run/driver.hpp) was not found",
+    "the runtime's headers (lagen/kernel.hpp) were not found",
+    "there is nothing to plot: the run gave no rows",
+    "{}\nand neither is '{}': {}",
 };
 
 } // namespace
