@@ -5,7 +5,7 @@
 #include "expression/tree.hpp"
 
 #include <functional>
-#include <ranges>
+#include <iterator>
 #include <unordered_set>
 
 namespace lagen {
@@ -25,7 +25,8 @@ class PartSearch {
             open.pop_back();
             if (part == nullptr || !seen_.insert(part.get()).second) continue;
             if (is_wanted(part)) return part;
-            for (const Tree& argument : std::views::reverse(inside(part))) open.push_back(&argument);
+            const auto& arguments = inside(part);
+            for (auto each = std::rbegin(arguments); each != std::rend(arguments); ++each) open.push_back(&*each);
         }
         return nullptr;
     }
