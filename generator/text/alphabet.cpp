@@ -182,9 +182,7 @@ std::string raised_digits(std::string_view text)
 {
     std::string result;
     for (const char c : text)
-        result += c == '-'                                  ? "⁻"
-                  : is_digit(static_cast<unsigned char>(c)) ? raised[static_cast<std::size_t>(c - '0')]
-                                                            : std::string_view(&c, 1);
+        result += c == '-' ? "⁻" : is_digit(c) ? raised[static_cast<std::size_t>(c - '0')] : std::string_view(&c, 1);
     return result;
 }
 
@@ -192,8 +190,7 @@ std::string lowered_digits(std::string_view text)
 {
     std::string result;
     for (const char c : text)
-        result += is_digit(static_cast<unsigned char>(c)) ? lowered[static_cast<std::size_t>(c - '0')]
-                                                          : std::string_view(&c, 1);
+        result += is_digit(c) ? lowered[static_cast<std::size_t>(c - '0')] : std::string_view(&c, 1);
     return result;
 }
 

@@ -20,6 +20,16 @@ namespace lagen {
     return c >= U'0' && c <= U'9';
 }
 
+/// The same of one byte of a text in UTF-8; the bytes of longer characters are neither letters nor digits.
+[[nodiscard]] constexpr bool is_digit(char c)
+{
+    return c >= '0' && c <= '9';
+}
+[[nodiscard]] constexpr bool is_letter(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
 /// '₀' to '₉'.
 [[nodiscard]] constexpr bool is_lowered_digit(char32_t c)
 {
