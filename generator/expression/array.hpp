@@ -34,7 +34,7 @@ inline constexpr std::size_t most_array_entries = 4096;
 /// "x[3]", "W[1,2]": the entry number k (from 0, by rows) of the family `name`. A scalar's is the name itself.
 [[nodiscard]] std::string entry_name(const std::string& name, const Shape& shape, std::size_t k);
 
-/// What entry k of the value of an expression is called: x[1] of "x", (2*x)[1] of "2*x"; a scalar by its text.
+/// The name of entry k of the value of an expression: x[1] of "x", (2*x)[1] of "2*x"; a scalar by its text.
 [[nodiscard]] std::string value_name(const std::string& text, const Shape& shape, std::size_t k);
 
 } // namespace lagen

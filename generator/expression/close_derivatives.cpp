@@ -12,7 +12,7 @@ namespace lagen {
 
 namespace {
 
-/// What is said of the second argument.
+/// The hint for a second argument that is no name.
 constexpr const char* symbols_hint = "derivatives are taken by coordinates, momenta, parameters, t: by symbols";
 constexpr std::size_t longest_shown = 60;
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t most_operations = 1'000'000;
 
-/// What an operation of so many arguments counts: a sum of n terms is n - 1 additions.
+/// The count of an operation of so many arguments: a sum of n terms is n - 1 additions.
 std::size_t cost(std::size_t arguments)
 {
     return arguments > 2 ? arguments - 1 : 1;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// What closing makes of an expression: scalars, vectors and matrices of closed trees with their sizes.
+/// Closed expressions: scalars, vectors and matrices of closed trees with their sizes.
 #pragma once
 
 #include "expression/array.hpp"
 #include "expression/measure.hpp"
-#include "expression/skew.hpp"
+#include "expression/tree_identity.hpp"
 
 #include <optional>
 
@@ -30,7 +30,7 @@ struct Closed {
     std::vector<ClosedTree> entries;    ///< by rows; empty or null trees where they are not made yet
     std::string family;                 ///< not empty: the entries are the symbols entry_name(family, shape, k)
     std::shared_ptr<Closed> inverse_of; ///< not null: the inverse of that matrix
-    /// Of an index that is a range, its ends, nothing for one that is no integer constant. A range poses as a scalar.
+    /// The ends of an index that is a range, nothing for one that is no integer constant. A range poses as a scalar.
     std::vector<std::optional<long>> range;
 
     /// In a function's body that is checked on its own, a parameter of unknown shape and what depends on it. It poses

@@ -17,7 +17,7 @@ struct BoundName {
     Value value;
 };
 
-/// What the names of one body mean.
+/// The meaning of the names of one body.
 struct OpenBody {
     const Definition* definition = nullptr; ///< null: an expression outside of the definitions
     std::vector<BoundName> bound;           ///< the innermost last
@@ -76,7 +76,8 @@ class Expansion::Closing {
 
     Value family(const std::string& name, const Shape& shape, const OpenBody& body) const;
     const Definition& function_of(const TreeNode& node, const OpenBody& body) const;
-    /// What an application of diff, grad, jacobian or Dt is; null for a function of the model and all else.
+    /// The operator that an application of diff, grad, jacobian or Dt calls; null for a function of the model and all
+    /// else.
     const DerivativeEntry* derivative_of(const TreeNode& node) const;
     [[nodiscard]] bool applies_function(const TreeNode& node) const
     {

@@ -25,8 +25,8 @@ struct DerivativeEntry {
 [[nodiscard]] const DerivativeEntry* find_derivative(std::string_view name);
 [[nodiscard]] std::span<const DerivativeEntry> derivative_table();
 
-/// What Dt(x) is stands in the scope as a definition of this name, "x'", which no text can spell: a closed tree, 0 for
-/// a parameter. A symbol that has none has no rate; one whose body is null is put in later and cannot be
+/// The value of Dt(x) stands in the scope as a definition of this name, "x'", which no text can spell: a closed tree, 0
+/// for a parameter. A symbol that has none has no rate; one whose body is null is put in later and cannot be
 /// differentiated at all.
 [[nodiscard]] std::string rate_name(const std::string& symbol);
 [[nodiscard]] bool is_rate_name(std::string_view name);

@@ -33,7 +33,7 @@ enum class Function {
     select,
     stumpff, ///< stumpff(k, z) = sum_j (-z)^j / (2j+k)!, k a literal 0 .. 32; what exp(hat(v)) and its derivatives need
     erf,     ///< 2/sqrt(pi) times the integral of exp(-s^2) from 0 to x
-    // Of vectors and matrices; gone after closing.
+    // Functions of vectors and matrices are gone after closing.
     dot,
     cross,
     norm,

@@ -15,7 +15,7 @@
 
 namespace lagen {
 
-/// Of floating point numbers; the largest pivot is the best.
+/// Arithmetic of floating point numbers; the largest pivot is the best.
 template <class Scalar>
 struct Arithmetic {
     using Number = Scalar;
@@ -30,7 +30,7 @@ struct Arithmetic {
     }
 };
 
-/// Of exact numbers; the first pivot that is not 0 serves.
+/// Arithmetic of exact numbers; the first pivot that is not 0 serves.
 template <>
 struct Arithmetic<Rational> {
     using Number = Rational;
@@ -55,7 +55,7 @@ struct Factorisation {
     bool regular = true;
 };
 
-/// Of the n x n matrix `a`, by rows.
+/// The factorisation of the n x n matrix `a`, by rows.
 template <class Number, class Field = Arithmetic<Number>>
 [[nodiscard]] Factorisation<Number> factorise(std::vector<Number> a, std::size_t n, const Field& field = {})
 {

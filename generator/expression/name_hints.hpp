@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// What to say of a name that nobody declared.
+/// Hints for a name that nobody declared.
 #pragma once
 
 #include <string>

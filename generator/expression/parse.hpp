@@ -9,7 +9,7 @@
 
 namespace lagen {
 
-/// What one expression may cost. Every bound is named in the error that it causes.
+/// The bounds of what one expression costs. Every bound is named in the error that it causes.
 struct ParseLimits {
     std::size_t depth = 256;        ///< nested parentheses, calls, signs, exponents
     std::size_t length = 1'000'000; ///< bytes of text

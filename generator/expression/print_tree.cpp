@@ -129,7 +129,8 @@ const char* spaced(Comparison comparison)
     return " ? ";
 }
 
-/// What is still to be printed: a sub-tree that must hold together at least as tightly as `least`, or (null) a text.
+/// One piece that is still to be printed: a sub-tree that must hold together at least as tightly as `least`, or (null)
+/// a text.
 struct Pending {
     const TreeNode* node;
     Tightness least;

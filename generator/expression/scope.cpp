@@ -229,7 +229,7 @@ Scope Scope::with(const std::vector<std::string>& symbols) const
 void Scope::check_definitions() const
 {
     if (!expansion_) expansion_ = std::make_shared<Expansion>();
-    // What is closed for parameters of unknown shape says nothing of other uses: it is kept apart.
+    // A body that is closed for parameters of unknown shape says nothing of other uses: it is kept apart.
     Expansion functions;
     for (const Definition& definition : definitions_)
         if (!is_rate_name(definition.name)) // closed already

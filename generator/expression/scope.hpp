@@ -22,7 +22,7 @@ struct Definition {
     SourceRange where;                   ///< of its key
 };
 
-/// What closing throws for a symbol that is not declared, so that a caller that accepts fewer names can hint at those.
+/// Closing throws this for a symbol that is not declared, so that a caller that accepts fewer names can hint at those.
 class UnknownSymbol : public ModelError {
   public:
     UnknownSymbol(std::string name, const SourceRange& where, const std::string& hint, bool explained = false);
@@ -118,7 +118,7 @@ class Scope {
     std::map<std::string, std::string> explanations_;
     std::vector<std::string> order_; ///< of declaration: symbols, families and sizes
     std::set<std::string> last_;     ///< those that hints list last
-    /// What has been expanded so far. It depends on the names above alone, so that copies may share it; a scope drops
+    /// The expansions made so far. They depend on the names above alone, so that copies may share it; a scope drops
     /// its hold on it when a name joins.
     mutable std::shared_ptr<Expansion> expansion_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// What a model declares by name: symbols with what is said of them, and names that stand for expressions.
+/// Names that a model declares: symbols with what is said of them, and names that stand for expressions.
 #pragma once
 
 #include "expression/tree.hpp"

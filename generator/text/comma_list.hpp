@@ -8,8 +8,8 @@
 
 namespace lagen {
 
-/// What `each` makes of the entries (a text, or a member that is one), with `between` between them; what it leaves
-/// empty is left out.
+/// The texts that `each` makes of the entries (a text, or a member that is one), with `between` between them; what it
+/// leaves empty is left out.
 template <class Range, class Each = std::identity>
 [[nodiscard]] std::string comma_list(const Range& entries, Each each = {}, std::string_view between = ", ")
 {

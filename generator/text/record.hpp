@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// What a command answers, as a tree of named values, and its JSON.
+/// The answer of a command, as a tree of named values, and its JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>
