@@ -11,18 +11,24 @@ std::vector<CoupledBlock> coupled_blocks(const Graph& graph, const std::vector<N
 
 namespace {
 
+std::vector<NodeId> part_of(const std::vector<NodeId>& nodes, const Places& places)
+{
+    std::vector<NodeId> part;
+    for (const std::size_t place : places) part.push_back(nodes[place]);
+    return part;
+}
+
 /// Cramer's rule for one block; columns of `right` outside its rows do not enter.
 void solve_written(Graph& graph, const std::vector<NodeId>& matrix, std::size_t m, const CoupledBlock& block,
                    const std::vector<std::vector<NodeId>>& right, std::vector<std::vector<NodeId>>& result)
 {
-    const NodeId determinant = determinant_of(graph, matrix, m, block.rows, block.columns);
-    for (std::size_t k = 0; k < right.size(); ++k)
-        for (const std::size_t column : block.columns) {
-            std::vector<NodeId> replaced = matrix;
-            for (const std::size_t row : block.rows) replaced[row * m + column] = right[k][row];
-            const NodeId above = determinant_of(graph, replaced, m, block.rows, block.columns);
-            result[k][column] = graph.is_zero(above) ? above : graph.divide(above, determinant);
+    for (std::size_t k = 0; k < right.size(); ++k) {
+        const CramersRule z{graph, matrix, m, block.rows, block.columns, part_of(right[k], block.rows)};
+        for (std::size_t j = 0; j < block.columns.size(); ++j) {
+            const NodeId above = z.numerator(j);
+            result[k][block.columns[j]] = graph.is_zero(above) ? above : graph.divide(above, z.divisor);
         }
+    }
 }
 
 void solve_as_components(Graph& graph, const std::vector<NodeId>& matrix, std::size_t m, const CoupledBlock& block,
@@ -32,9 +38,7 @@ void solve_as_components(Graph& graph, const std::vector<NodeId>& matrix, std::s
     for (const std::size_t row : block.rows)
         for (const std::size_t column : block.columns) entries.push_back(matrix[row * m + column]);
     for (std::size_t k = 0; k < right.size(); ++k) {
-        std::vector<NodeId> b;
-        for (const std::size_t row : block.rows) b.push_back(right[k][row]);
-        const std::vector<NodeId> z = graph.solve(entries, b, MatrixStructure::general);
+        const std::vector<NodeId> z = graph.solve(entries, part_of(right[k], block.rows), MatrixStructure::general);
         for (std::size_t j = 0; j < block.columns.size(); ++j) result[k][block.columns[j]] = z[j];
     }
 }

@@ -36,8 +36,7 @@ Fraction NormalForm::component(NodeId node)
     for (const NodeId entry : graph_.operands(operands[0])) matrix.push_back(done_.at(entry));
     for (std::size_t k = 0; k < n; ++k) right.push_back(done_.at(operands[k + 1]));
     const Fraction whole = determinant(FractionRing{ring_, matrix, n}, n);
-    for (std::size_t i = 0; i < n; ++i) matrix[i * n + row] = right[i];
-    return ring_.divide(determinant(FractionRing{ring_, matrix, n}, n), whole);
+    return ring_.divide(numerator(FractionRing{ring_, matrix, n}, row, right), whole);
 }
 
 } // namespace lagen::proof

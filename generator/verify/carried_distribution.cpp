@@ -2,7 +2,7 @@
 #include "verify/carried_distribution.hpp"
 
 #include "verify/distribution_rows.hpp"
-#include "verify/fibre_rank.hpp"
+#include "proof/rank.hpp"
 
 #include <fmt/format.h>
 
@@ -31,8 +31,8 @@ Check decide_onto(MappedSystems& both, Judge& judge)
         return onto;
     }
     const std::size_t wanted = both.to().velocities().size();
-    const FibreRank rank =
-        fibre_rank(both.graph, both.moving.matrix, wanted, both.from().velocities().size(), judge.decider());
+    const GenericRank rank =
+        generic_rank(both.graph, both.moving.matrix, wanted, both.from().velocities().size(), judge.decider());
     if (rank.surjective && rank.where.empty()) {
         onto.decision = judge.decide(both.graph.constant(0));
     } else if (rank.rank && *rank.rank < wanted) {

@@ -4,7 +4,7 @@
 #include "graph/calculus/differentiate.hpp"
 #include "verify/claims.hpp"
 #include "verify/distribution_rows.hpp"
-#include "verify/fibre_rank.hpp"
+#include "proof/rank.hpp"
 #include "verify/singular_set.hpp"
 #include "verify/witness_point.hpp"
 
@@ -41,7 +41,7 @@ void Claims::decide_constraints(StructureReport& structure)
         const NodeId only[] = {distribution.constraints[A]};
         append({"drift", text}, substitute(graph_, only, replacements(system_.algebroid.y, drift))[0]);
     }
-    const FibreRank rank = fibre_rank(graph_, B, distribution.constraints.size(), r, judge_->decider());
+    const GenericRank rank = generic_rank(graph_, B, distribution.constraints.size(), r, judge_->decider());
     if (rank.rank && *rank.rank == r - k) return;
     Check check{"constraint", {"number"}, {}};
     check.decision.evidence = "the rank of the constraints is not decided";

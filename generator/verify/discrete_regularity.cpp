@@ -4,7 +4,6 @@
 #include "verify/discrete_regularity.hpp"
 
 #include "expression/linear_algebra.hpp"
-#include "graph/calculus/determinant.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/evaluate.hpp"
 #include "mechanics/discrete.hpp"
@@ -14,18 +13,13 @@
 #include "verify/definiteness.hpp"
 #include "verify/group_chart.hpp"
 #include "verify/kernel_vectors.hpp"
-#include "verify/pivoted_minor.hpp"
 #include "verify/reduced_fraction.hpp"
 #include "verify/singular_set.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 
 namespace lagen {
 namespace {
-
-using Places = std::vector<std::size_t>;
 
 constexpr ProofBudget decision_budget{.terms = 2000, .products = 100'000};
 
@@ -70,7 +64,7 @@ class DiscreteRegularity {
         arrows_ = on_arrows();
         const std::optional<NamedPoint> point = arrows_.decider->sample_point();
         if (point) numbers_ = numbers_at(*point);
-        const std::optional<PivotedMinor> minor = point ? guess_minor(numbers_, m_, system_.r()) : std::nullopt;
+        const std::optional<Minor> minor = point ? guess_minor(numbers_, m_, system_.r()) : std::nullopt;
         if (!minor ||
             arrows_.decider->status(product_of_pivots(graph_, arrows_.N, m_, *minor)) != ProofStatus::refuted) {
             result.evidence = "no arrow was found at which the rank of N is certain";
@@ -250,29 +244,9 @@ class DiscreteRegularity {
                                                              : "W = cay(s(c) E_c) with the generators E_c of the group";
     }
 
-    /// k with N k = 0 for a column j outside of a minor, k^j = 1, N_PQ k^Q = -N_Pj, if it has small fractions as
-    /// entries at the point where the minor was found.
-    [[nodiscard]] std::vector<NodeId> constant_entries(const PivotedMinor& minor, std::size_t j)
-    {
-        std::vector<long double> matrix, right;
-        for (const std::size_t p : minor.rows) {
-            for (const std::size_t q : minor.columns) matrix.push_back(numbers_[p * m_ + q]);
-            right.push_back(-numbers_[p * m_ + j]);
-        }
-        const std::vector<long double> z = substitute(factorise(std::move(matrix), right.size()), right);
-        std::vector<NodeId> k(m_, graph_.constant(0));
-        k[j] = graph_.constant(1);
-        constexpr long multiple = 2520; // of the denominators up to 10
-        for (std::size_t i = 0; i < z.size(); ++i) {
-            const long double scaled = std::round(z[i] * multiple);
-            if (!(std::abs(z[i] * multiple - scaled) < 1e-6L && std::abs(scaled) < 1e6L)) return {};
-            k[minor.columns[i]] = graph_.constant(Rational(static_cast<long>(scaled), multiple));
-        }
-        return k;
-    }
-
-    /// The same by Cramer's rule, with P and Q in the block of j. Nothing where that is too large.
-    [[nodiscard]] std::vector<NodeId> kernel_entries(const Chart& chart, const PivotedMinor& minor, std::size_t j)
+    /// k with N k = 0 for a column j outside of the minor, whose part in the block of j is used. Nothing where that is too
+    /// large.
+    [[nodiscard]] std::vector<NodeId> kernel_vector(const Chart& chart, const Minor& minor, std::size_t j)
     {
         const Places& block = *std::ranges::find_if(
             blocks_, [&](const Places& each) { return std::ranges::find(each, j) != each.end(); });
@@ -280,58 +254,35 @@ class DiscreteRegularity {
             std::erase_if(places, [&](std::size_t k) { return std::ranges::find(block, k) == block.end(); });
             return places;
         };
-        const Places rows = within(minor.rows), columns = within(minor.columns);
-        if (rows.size() != columns.size() || rows.size() > determinant_limit) return {};
-        std::vector<NodeId> k(m_, graph_.constant(0));
-        k[j] = graph_.constant(1);
-        if (rows.empty()) return k;
-        const NodeId determinant = determinant_of(graph_, chart.N, m_, rows, columns);
-        for (const std::size_t q : columns) {
-            std::vector<NodeId> replaced = chart.N;
-            for (const std::size_t p : rows) replaced[p * m_ + q] = graph_.negate(chart.N[p * m_ + j]);
-            k[q] = graph_.divide(determinant_of(graph_, replaced, m_, rows, columns), determinant);
-        }
-        return k;
-    }
-
-    [[nodiscard]] bool is_in_kernel(const Chart& chart, const std::vector<NodeId>& k)
-    {
-        for (std::size_t a = 0; a < m_; ++a) {
-            if (k.empty()) return false;
-            std::vector<NodeId> terms;
-            for (std::size_t b = 0; b < m_; ++b) terms.push_back(graph_.multiply(chart.N[a * m_ + b], k[b]));
-            if (chart.decider->status(graph_.sum(terms)) != ProofStatus::proved) return false;
-        }
-        return true;
+        const Minor part{within(minor.rows), within(minor.columns)};
+        if (part.rows.size() != part.columns.size() || part.rows.size() > determinant_limit) return {};
+        return FunctionMatrix(graph_, chart.N, m_, m_).kernel_vector(part, j);
     }
 
     /// One vector a column outside of the minor; nothing where one is not proved to be in the kernel.
     [[nodiscard]] std::optional<std::vector<std::vector<NodeId>>> kernel_on(const Chart& chart,
-                                                                            const PivotedMinor& minor)
+                                                                            const Minor& minor)
     {
         std::vector<std::vector<NodeId>> vectors;
         for (std::size_t j = 0; j < m_; ++j) {
             if (std::ranges::find(minor.columns, j) != minor.columns.end()) continue;
-            std::vector<NodeId> k = constant_entries(minor, j);
-            if (!is_in_kernel(chart, k)) k = kernel_entries(chart, minor, j);
-            if (!is_in_kernel(chart, k)) return {};
+            std::vector<NodeId> k = kernel_vector(chart, minor, j);
+            if (k.empty() || !FunctionMatrix(graph_, chart.N, m_, m_).maps_to_zero(k, *chart.decider)) return {};
             vectors.push_back(std::move(k));
         }
         return vectors;
     }
 
-    void describe_kernel(Regularity& result, const PivotedMinor& minor)
+    void describe_kernel(Regularity& result, const Minor& minor)
     {
         for (const Chart* chart : {&matrices_, &arrows_}) {
             const auto vectors = kernel_on(*chart, minor);
             if (!vectors) continue;
             result.kind = Regularity::Kind::degenerate;
             if (chart == &arrows_) name_chart(result);
-            Places all(m_);
-            std::iota(all.begin(), all.end(), 0);
             const Order order = writing_order(graph_, chart->setting);
             for (const std::vector<NodeId>& k : *vectors) {
-                const auto vector = readable_vector(graph_, all, k, order, *chart->decider);
+                const auto vector = readable_vector(graph_, first_places(m_), k, order, *chart->decider);
                 if (!vector) continue;
                 auto& named = result.kernel.emplace_back();
                 for (const auto& [a, text] : *vector) named.emplace_back(names_[a], text);

@@ -1,24 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The kernel of a degenerate fibre Hessian W, a block of coupled coordinates at a time: for a nonzero principal minor
-/// det W_PP of the size of the rank and each j outside of P, k = e_j - (W_PP^-1 W_Pj)^i e_i without its denominators.
+/// det W_PP of the size of the rank and each j outside of P, k = e_j - (W_PP^-1 W_Pj)^i e_i.
 #pragma once
 
 #include "mechanics/fibre_hessian.hpp"
-#include "proof/decide.hpp"
+#include "proof/rank.hpp"
 #include "symbolic/ginac_door.hpp"
 
 namespace lagen {
 
-/// A symmetric matrix has a nonzero principal minor of the size of its rank: its rows, ascending, found by a witness;
-/// nothing where that is not decided. For blocks of at most `determinant_limit` rows.
-[[nodiscard]] std::optional<std::vector<std::size_t>> nonzero_principal_minor(Graph& graph, const FibreHessian& hessian,
-                                                                              const std::vector<std::size_t>& block,
-                                                                              const ZeroDecider& decider);
-
 /// Components that are not zero, by fibre coordinate.
 using KernelVector = std::vector<std::pair<std::size_t, Tree>>;
 
-/// The entries k at `places`, without their denominators; nothing where one is too long to be read.
+/// The entries k at `places`; nothing where one is too long to be read.
 [[nodiscard]] std::optional<KernelVector> readable_vector(Graph& graph, const std::vector<std::size_t>& places,
                                                           const std::vector<NodeId>& k, const Order& order,
                                                           const ZeroDecider& decider);

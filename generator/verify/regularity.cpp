@@ -33,8 +33,8 @@ std::vector<Rational> values_at_point(const Graph& graph, const std::vector<Node
     return evaluate_exactly(graph, nodes, values);
 }
 
-/// Full rank at one exact point is full generic rank; else a nonzero principal minor tells, of a block that is not too
-/// large for one.
+/// Full rank at one exact point is full generic rank; else a largest minor tells, of a block that is not too large for
+/// one.
 std::optional<std::size_t> generic_rank(Graph& graph, const FibreHessian& hessian, const Block& block,
                                         const ZeroDecider& decider)
 {
@@ -44,8 +44,8 @@ std::optional<std::size_t> generic_rank(Graph& graph, const FibreHessian& hessia
     const std::vector<Rational> there = values_at_point(graph, entries, decider);
     if (!there.empty() && rank_of(there, block.size()) == block.size()) return block.size();
     if (block.size() > determinant_limit) return {};
-    const std::optional<Block> minor = nonzero_principal_minor(graph, hessian, block, decider);
-    return minor ? std::optional(minor->size()) : std::nullopt;
+    const auto minor = FunctionMatrix(graph, entries, block.size(), block.size()).largest_minor(decider);
+    return minor ? std::optional(minor->rows.size()) : std::nullopt;
 }
 
 /// A node that vanishes exactly where the block is singular; nothing of a block that is too large.
@@ -54,7 +54,7 @@ std::optional<NodeId> determinant_of_block(Graph& graph, const FibreHessian& hes
     if (const std::vector<Rational> numbers = numbers_of(graph, hessian.submatrix(block)); !numbers.empty())
         return graph.constant(rank_of(numbers, block.size()) == block.size() ? 1 : 0);
     if (block.size() > determinant_limit) return {};
-    return minor_determinant(graph, hessian, block, block);
+    return block_determinant(graph, hessian, block);
 }
 
 /// Those of the blocks that have one.

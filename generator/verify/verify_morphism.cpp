@@ -34,7 +34,7 @@ class MorphismClaims {
         decide_functions();
         if (morphism_.of_groupoids) decide_arrows();
         find_reach();
-        report_.rank = fibre_rank(graph_, matrix_, to_.r(), from_.r(), judge_->decider());
+        report_.rank = generic_rank(graph_, matrix_, to_.r(), from_.r(), judge_->decider());
         conclude();
         return std::move(report_);
     }
@@ -232,7 +232,7 @@ class MorphismClaims {
         std::vector<NodeId> slopes;
         for (const std::vector<NodeId>& row : jacobian(graph_, morphism_.controls, u))
             slopes.insert(slopes.end(), row.begin(), row.end());
-        const FibreRank rank = fibre_rank(graph_, slopes, morphism_.controls.size(), u.size(), judge_->decider());
+        const GenericRank rank = generic_rank(graph_, slopes, morphism_.controls.size(), u.size(), judge_->decider());
         return rank.surjective && rank.where.empty();
     }
 

@@ -8,7 +8,7 @@
 #include "mechanics/variations.hpp"
 #include "text/activity.hpp"
 #include "verify/carried_distribution.hpp"
-#include "verify/fibre_rank.hpp"
+#include "proof/rank.hpp"
 
 #include <algorithm>
 #include <set>
@@ -112,8 +112,8 @@ class Reduction {
         for (std::size_t a = 0; a < rest.size(); ++a) rest[a] = graph_.subtract(rest[a], there.f[a]);
         const std::size_t k = to_.velocities().size();
         const auto is_injective = [&] { // Phi^*, at every point
-            const FibreRank rank =
-                fibre_rank(graph_, both_.moving.matrix, k, from_.velocities().size(), judge_->decider());
+            const GenericRank rank =
+                generic_rank(graph_, both_.moving.matrix, k, from_.velocities().size(), judge_->decider());
             return rank.surjective && rank.where.empty();
         };
         if (decide_lifts(here, there, rest) && is_injective()) {
@@ -141,7 +141,7 @@ class Reduction {
     {
         return std::ranges::any_of(hessian.blocks, [&](const std::vector<std::size_t>& block) {
             return block.size() <= determinant_limit &&
-                   judge_->decider().status(minor_determinant(graph_, hessian, block, block)) == ProofStatus::proved;
+                   judge_->decider().status(block_determinant(graph_, hessian, block)) == ProofStatus::proved;
         });
     }
 

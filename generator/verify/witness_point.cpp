@@ -60,7 +60,6 @@ WitnessPoint::WitnessPoint(Graph& graph, const NamedPoint& point) : graph_(graph
 {
     for (const auto& [name, value] : point) {
         const NodeId input = graph.input(name);
-        if (value.exact) exact_.emplace(input, *value.exact);
         balls_.emplace(input, value.exact ? proof::Ball(*value.exact, precision) : enclosure(value));
     }
 }
@@ -73,19 +72,6 @@ bool WitnessPoint::may_vanish(NodeId node)
     const auto& inputs = evaluation.inputs();
     if (!std::all_of(inputs.begin(), inputs.end(), [&](NodeId input) { return balls_.contains(input); })) return true;
     return !evaluation.enclose(balls_, precision)[0].excludes_zero();
-}
-
-std::optional<Rational> WitnessPoint::exactly(NodeId node)
-{
-    if (graph_.is_constant(node)) return graph_.value(node);
-    const proof::Evaluation evaluation(graph_, {node});
-    effort_ += evaluation.size() + 1;
-    const auto& inputs = evaluation.inputs();
-    if (!std::all_of(inputs.begin(), inputs.end(), [&](NodeId input) { return exact_.contains(input); }))
-        return std::nullopt;
-    const auto values = evaluation.exactly(exact_);
-    if (!values) return std::nullopt;
-    return (*values)[0];
 }
 
 } // namespace lagen

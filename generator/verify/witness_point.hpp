@@ -25,15 +25,12 @@ class WitnessPoint {
 
     /// False where the value is certainly not zero at the point.
     [[nodiscard]] bool may_vanish(NodeId node);
-    /// Nothing where the value is not rational, or the point is not.
-    [[nodiscard]] std::optional<Rational> exactly(NodeId node);
     /// Operations carried out so far.
     [[nodiscard]] std::size_t effort() const { return effort_; }
 
   private:
     const Graph& graph_;
     proof::BallInputs balls_;
-    proof::ExactInputs exact_;
     std::size_t effort_ = 0;
 };
 
