@@ -5,8 +5,8 @@
 #include "expression/linear_algebra.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/evaluate.hpp"
-#include "proof/decide.hpp"
 #include "proof/enclosure.hpp"
+#include "proof/rank.hpp"
 #include "text/comma_list.hpp"
 
 #include <algorithm>
@@ -201,7 +201,7 @@ class FrameBuilder {
 
     LevelSetFrame make()
     {
-        for (std::size_t count = 2; count <= m_; ++count) require_independent(count);
+        require_independent();
         const KeptChoice choice = choose_free(*work_, rows_, model_.base.coordinates, request_.kept);
         if (choice.kept) return graph_frame(*choice.kept);
         const bool regular = is_regular();
@@ -231,19 +231,18 @@ class FrameBuilder {
                 request_.where, "without [fibre] lagen names them after the coordinates that it keeps");
     }
 
-    /// Some minor of the first rows is not zero on M as far as its triangular constraints tell.
-    void require_independent(std::size_t count)
+    /// Each gradient is independent of those before it somewhere on M, as far as its triangular constraints tell.
+    void require_independent()
     {
-        Places columns = first_places(count);
-        do {
-            const NodeId minor = determinant_of(work_->graph(), rows_.B, n_, first_places(count), columns);
-            if (!work_->graph().is_zero(minor) && work_->readable(minor) != nullptr) return;
-        } while (next_places(columns, n_));
-        throw ModelError(
-            fmt::format("the constraint '{}' depends on those before it: the gradients of all of them are linearly "
-                        "dependent at every point of the level set",
-                        to_text(model_.base.constraints[count - 1])),
-            model_.base.constraint_texts[count - 1], "leave it out, or give one that cuts the level set down");
+        const ZeroDecider decider(work_->graph(), work_->setting());
+        const auto minor = FunctionMatrix(work_->graph(), rows_.B, m_, n_).largest_minor(decider);
+        for (std::size_t A = 1; minor && A < m_; ++A)
+            if (std::ranges::find(minor->rows, A) == minor->rows.end())
+                throw ModelError(
+                    fmt::format("the constraint '{}' depends on those before it: the gradients of all of them are "
+                                "linearly dependent at every point of the level set",
+                                to_text(model_.base.constraints[A])),
+                    model_.base.constraint_texts[A], "leave it out, or give one that cuts the level set down");
     }
 
     /// det B B^T, the sum of the squares of all minors, vanishes nowhere.

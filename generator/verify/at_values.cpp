@@ -5,40 +5,39 @@
 
 namespace lagen {
 
-std::optional<ProofSetting> replaced(Graph& graph, const ProofSetting& setting, const Replacements& values)
-{
-    ProofSetting result = setting;
-    for (const auto& [input, value] : values) {
-        std::erase(result.variables, input);
-        std::erase(result.parameters, input);
-    }
-    for (std::vector<NodeId>* nodes : {&result.constraints, &result.domain, &result.defined}) {
-        auto there = substitute_where_defined(graph, *nodes, values);
-        if (!there) return std::nullopt;
-        *nodes = std::move(*there);
-    }
-    return result;
-}
-
-std::optional<AtValues> at_values(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting,
+std::optional<AtValues> at_values(Graph& graph, const std::vector<NodeId>& nodes, const ProofSetting& setting,
                                   const ProofBudget& budget, const Replacements& values)
 {
-    AtValues there{{}, hessian, nullptr};
-    std::vector<NodeId> function = {hessian.lagrangian};
-    const std::pair<std::vector<NodeId>*, const std::vector<NodeId>*> parts[] = {
-        {&function, &function}, {&there.hessian.momenta, &hessian.momenta}, {&there.hessian.hessian, &hessian.hessian}};
-    for (const auto& [to, from] : parts) {
-        auto nodes = substitute_where_defined(graph, *from, values);
-        if (!nodes) return std::nullopt;
-        *to = std::move(*nodes);
+    AtValues there{nodes, setting, nullptr};
+    for (const auto& [input, value] : values) {
+        std::erase(there.setting.variables, input);
+        std::erase(there.setting.parameters, input);
     }
-    auto here = replaced(graph, setting, values);
-    if (!here) return std::nullopt;
-    there.hessian.lagrangian = function[0];
-    there.setting = std::move(*here);
+    for (std::vector<NodeId>* each :
+         {&there.nodes, &there.setting.constraints, &there.setting.domain, &there.setting.defined}) {
+        auto moved = substitute_where_defined(graph, *each, values);
+        if (!moved) return std::nullopt;
+        *each = std::move(*moved);
+    }
     there.decider = ZeroDecider::make(graph, there.setting, budget);
     if (!there.decider) return std::nullopt;
     return there;
+}
+
+std::optional<HessianAtValues> at_values(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting,
+                                         const ProofBudget& budget, const Replacements& values)
+{
+    std::vector<NodeId> nodes{hessian.lagrangian};
+    nodes.insert(nodes.end(), hessian.momenta.begin(), hessian.momenta.end());
+    nodes.insert(nodes.end(), hessian.hessian.begin(), hessian.hessian.end());
+    std::optional<AtValues> there = at_values(graph, nodes, setting, budget, values);
+    if (!there) return std::nullopt;
+    HessianAtValues result{std::move(*there), hessian};
+    auto next = result.nodes.begin();
+    result.hessian.lagrangian = *next++;
+    for (std::vector<NodeId>* part : {&result.hessian.momenta, &result.hessian.hessian})
+        for (NodeId& node : *part) node = *next++;
+    return result;
 }
 
 } // namespace lagen

@@ -23,12 +23,8 @@ namespace {
 
 constexpr ProofBudget decision_budget{.terms = 2000, .products = 100'000};
 
-/// N over the coordinates of arrows, and what holds of these.
-struct Chart {
-    std::vector<NodeId> N; ///< by rows
-    ProofSetting setting;
-    std::unique_ptr<ZeroDecider> decider;
-};
+/// N by rows over the coordinates of arrows, and what holds of these.
+using Chart = AtValues;
 
 class DiscreteRegularity {
   public:
@@ -66,7 +62,7 @@ class DiscreteRegularity {
         if (point) numbers_ = numbers_at(*point);
         const std::optional<Minor> minor = point ? guess_minor(numbers_, m_, system_.r()) : std::nullopt;
         if (!minor ||
-            arrows_.decider->status(product_of_pivots(graph_, arrows_.N, m_, *minor)) != ProofStatus::refuted) {
+            arrows_.decider->status(product_of_pivots(graph_, arrows_.nodes, m_, *minor)) != ProofStatus::refuted) {
             result.evidence = "no arrow was found at which the rank of N is certain";
             return result;
         }
@@ -124,7 +120,7 @@ class DiscreteRegularity {
         else if (!W.empty())
             group = group_chart(graph_, *system_.groupoid, W, "s");
         s_ = group.s;
-        Chart chart{substitute(graph_, matrices_.N, group.element), setting_over(s_), nullptr};
+        Chart chart{substitute(graph_, matrices_.nodes, group.element), setting_over(s_), nullptr};
         if (const auto& logarithm = system_.discrete->logarithm)
             s_.assign(system_.discrete->inner.begin(),
                       system_.discrete->inner.begin() + static_cast<std::ptrdiff_t>(logarithm->conditions.size()));
@@ -138,12 +134,7 @@ class DiscreteRegularity {
     /// The same for the parameter values of the file.
     [[nodiscard]] std::optional<Chart> at_file_values(const Chart& chart)
     {
-        const auto N = substitute_where_defined(graph_, chart.N, values_);
-        auto setting = replaced(graph_, chart.setting, values_);
-        if (!N || !setting) return {};
-        Chart there{*N, std::move(*setting), nullptr};
-        there.decider = ZeroDecider::make(graph_, there.setting, budget_);
-        return there.decider ? std::optional(std::move(there)) : std::nullopt;
+        return at_values(graph_, chart.nodes, chart.setting, budget_, values_);
     }
 
     /// Of N over the arrows; entries that vanish are 0 where the point and N are rational.
@@ -156,12 +147,12 @@ class DiscreteRegularity {
             if (value.exact) fractions.emplace(name, *value.exact);
         }
         if (fractions.size() == point.size())
-            if (const std::vector<Rational> exact = evaluate_exactly(graph_, arrows_.N, fractions); !exact.empty()) {
+            if (const std::vector<Rational> exact = evaluate_exactly(graph_, arrows_.nodes, fractions); !exact.empty()) {
                 std::vector<long double> numbers;
                 for (const Rational& entry : exact) numbers.push_back(entry.get_d());
                 return numbers;
             }
-        return evaluate<long double>(graph_, arrows_.N, values);
+        return evaluate<long double>(graph_, arrows_.nodes, values);
     }
 
     /// One a block; none where a block is too large.
@@ -170,7 +161,7 @@ class DiscreteRegularity {
         std::vector<NodeId> determinants;
         for (const Places& block : blocks_) {
             if (block.size() > determinant_limit) return {};
-            determinants.push_back(determinant_of(graph_, chart.N, m_, block, block));
+            determinants.push_back(determinant_of(graph_, chart.nodes, m_, block, block));
         }
         return determinants;
     }
@@ -186,7 +177,7 @@ class DiscreteRegularity {
     /// the chart misses, but for one that is the same at all elements.
     [[nodiscard]] bool is_regular_everywhere(const Chart& matrices, const Chart& arrows)
     {
-        if (!numbers_of(graph_, arrows.N).empty()) return true;
+        if (!numbers_of(graph_, arrows.nodes).empty()) return true;
         const std::vector<NodeId> free = determinants_on(matrices), charted = determinants_on(arrows);
         for (std::size_t k = 0; k < free.size(); ++k)
             if (!matrices.decider->proves_nonzero(free[k]) &&
@@ -216,7 +207,7 @@ class DiscreteRegularity {
 
     [[nodiscard]] bool is_regular_almost_everywhere()
     {
-        if (are_analytic(graph_, arrows_.N, arrows_.setting, *arrows_.decider)) return true;
+        if (are_analytic(graph_, arrows_.nodes, arrows_.setting, *arrows_.decider)) return true;
         const std::vector<NodeId> determinants = determinants_on(arrows_);
         return !determinants.empty() && std::ranges::all_of(determinants, [&](NodeId determinant) {
             return is_nonzero_almost_everywhere(graph_, determinant, arrows_.setting, *arrows_.decider);
@@ -256,7 +247,7 @@ class DiscreteRegularity {
         };
         const Minor part{within(minor.rows), within(minor.columns)};
         if (part.rows.size() != part.columns.size() || part.rows.size() > determinant_limit) return {};
-        return FunctionMatrix(graph_, chart.N, m_, m_).kernel_vector(part, j);
+        return FunctionMatrix(graph_, chart.nodes, m_, m_).kernel_vector(part, j);
     }
 
     /// One vector a column outside of the minor; nothing where one is not proved to be in the kernel.
@@ -267,7 +258,7 @@ class DiscreteRegularity {
         for (std::size_t j = 0; j < m_; ++j) {
             if (std::ranges::find(minor.columns, j) != minor.columns.end()) continue;
             std::vector<NodeId> k = kernel_vector(chart, minor, j);
-            if (k.empty() || !FunctionMatrix(graph_, chart.N, m_, m_).maps_to_zero(k, *chart.decider)) return {};
+            if (k.empty() || !FunctionMatrix(graph_, chart.nodes, m_, m_).maps_to_zero(k, *chart.decider)) return {};
             vectors.push_back(std::move(k));
         }
         return vectors;

@@ -193,7 +193,7 @@ void decide_legendre_transform(Graph& graph, const FibreHessian& hessian, const 
 {
     Transform transform = transform_of(graph, hessian, setting, budget, regularity);
     const auto succeeds_for = [&](const Replacements& some) {
-        const std::optional<AtValues> there = at_values(graph, hessian, setting, budget, some);
+        const auto there = at_values(graph, hessian, setting, budget, some);
         if (!there || !there->decider->sample_point()) return false;
         Transform here = transform_of(graph, there->hessian, there->setting, budget, regularity);
         const bool succeeds = here.obstacle.empty();

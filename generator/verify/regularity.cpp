@@ -178,7 +178,7 @@ Regularity decide_regularity(Graph& graph, const FibreHessian& hessian, const Pr
         describe_kernel(result, all);
         return result;
     }
-    const std::optional<AtValues> there = at_values(graph, hessian, setting, decider.budget(), values);
+    const auto there = at_values(graph, hessian, setting, decider.budget(), values);
     if (!there) return result;
     const Case given{graph, there->hessian, there->setting, *there->decider};
     const Regularity here = values.empty() ? result : decide_case(given);

@@ -48,14 +48,11 @@ std::optional<NamedPoint> singular_point(Graph& graph, const ProofSetting& setti
 {
     Replacements values;
     for (const auto& [input, value] : slice) values.emplace_back(input, value.node);
-    const std::optional<ProofSetting> rest = replaced(graph, setting, values);
-    const auto there = substitute_where_defined(graph, determinants, values);
-    if (!rest || !there) return {};
-    const std::unique_ptr<ZeroDecider> decider = ZeroDecider::make(graph, *rest, smaller(budget, slice_budget));
-    std::optional<NamedPoint> point = decider ? decider->sample_point() : std::nullopt;
+    const auto there = at_values(graph, determinants, setting, smaller(budget, slice_budget), values);
+    std::optional<NamedPoint> point = there ? there->decider->sample_point() : std::nullopt;
     if (!point) return {};
-    for (const NodeId determinant : *there)
-        if (decider->status(determinant) == ProofStatus::proved)
+    for (const NodeId determinant : there->nodes)
+        if (there->decider->status(determinant) == ProofStatus::proved)
             return point_of_slice(graph, setting, slice, *std::move(point), determinants);
     return {};
 }
