@@ -4,7 +4,7 @@
 #include "advice/repair.hpp"
 
 #include "graph/core/lower.hpp"
-#include "verify/witness_point.hpp"
+#include "verify/judge.hpp"
 
 #include <algorithm>
 #include <functional>

@@ -14,4 +14,12 @@ namespace lagen::proof {
                                    const std::vector<SolvedConstraint>& constraints,
                                    const std::vector<NonnegativeOperand>& operands, NodeId node, Work budget);
 
+// The sign of a function on the whole domain.
+
+/// The signs that the value may have wherever everything is defined, from its normal forms: with the constraints and
+/// without them, with sines of sums taken apart and whole. All of them where nothing is learnt.
+[[nodiscard]] Signs domain_signs(const Graph& graph, const ProofSetting& setting,
+                                 const std::vector<SolvedConstraint>& constraints,
+                                 const std::vector<NonnegativeOperand>& operands, NodeId value, Work budget);
+
 } // namespace lagen::proof

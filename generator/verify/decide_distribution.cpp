@@ -2,11 +2,11 @@
 /// What `check` says of a nonholonomic system: that its sections are independent and satisfy the constraints beside
 /// them; outside the verdict whether their brackets stay in the distribution, and which energy is conserved.
 #include "graph/calculus/differentiate.hpp"
+#include "proof/rank.hpp"
 #include "verify/claims.hpp"
 #include "verify/distribution_rows.hpp"
-#include "proof/rank.hpp"
+#include "verify/judge.hpp"
 #include "verify/singular_set.hpp"
-#include "verify/witness_point.hpp"
 
 #include <fmt/format.h>
 

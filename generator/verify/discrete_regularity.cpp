@@ -9,11 +9,9 @@
 #include "mechanics/discrete.hpp"
 #include "proof/almost_everywhere.hpp"
 #include "verify/arrow_decider.hpp"
-#include "verify/at_values.hpp"
 #include "verify/definiteness.hpp"
-#include "verify/group_chart.hpp"
-#include "verify/kernel_vectors.hpp"
-#include "verify/reduced_fraction.hpp"
+#include "verify/proof_setting.hpp"
+#include "verify/regularity.hpp"
 #include "verify/singular_set.hpp"
 
 #include <algorithm>
@@ -147,7 +145,8 @@ class DiscreteRegularity {
             if (value.exact) fractions.emplace(name, *value.exact);
         }
         if (fractions.size() == point.size())
-            if (const std::vector<Rational> exact = evaluate_exactly(graph_, arrows_.nodes, fractions); !exact.empty()) {
+            if (const std::vector<Rational> exact = evaluate_exactly(graph_, arrows_.nodes, fractions);
+                !exact.empty()) {
                 std::vector<long double> numbers;
                 for (const Rational& entry : exact) numbers.push_back(entry.get_d());
                 return numbers;
@@ -235,8 +234,8 @@ class DiscreteRegularity {
                                                              : "W = cay(s(c) E_c) with the generators E_c of the group";
     }
 
-    /// k with N k = 0 for a column j outside of the minor, whose part in the block of j is used. Nothing where that is too
-    /// large.
+    /// k with N k = 0 for a column j outside of the minor, whose part in the block of j is used. Nothing where that is
+    /// too large.
     [[nodiscard]] std::vector<NodeId> kernel_vector(const Chart& chart, const Minor& minor, std::size_t j)
     {
         const Places& block = *std::ranges::find_if(
@@ -251,8 +250,7 @@ class DiscreteRegularity {
     }
 
     /// One vector a column outside of the minor; nothing where one is not proved to be in the kernel.
-    [[nodiscard]] std::optional<std::vector<std::vector<NodeId>>> kernel_on(const Chart& chart,
-                                                                            const Minor& minor)
+    [[nodiscard]] std::optional<std::vector<std::vector<NodeId>>> kernel_on(const Chart& chart, const Minor& minor)
     {
         std::vector<std::vector<NodeId>> vectors;
         for (std::size_t j = 0; j < m_; ++j) {

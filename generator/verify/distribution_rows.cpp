@@ -4,7 +4,6 @@
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/lower.hpp"
 #include "proof/rank.hpp"
-#include "verify/reduced_fraction.hpp"
 #include "verify/singular_set.hpp"
 
 #include <fmt/format.h>

@@ -7,8 +7,8 @@
 #include "graph/core/lower.hpp"
 #include "graph/core/operators.hpp"
 #include "graph/unknowns/implicit.hpp"
-#include "verify/at_values.hpp"
 #include "verify/definiteness.hpp"
+#include "verify/proof_setting.hpp"
 
 #include <fmt/format.h>
 

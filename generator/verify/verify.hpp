@@ -71,6 +71,10 @@ struct Regularity {
     }
 };
 
+/// What is proved for one value of a parameter alone is taken to hold of others that differ from it by less than one
+/// part in so many: they are the same number, rounded.
+inline constexpr long proved_value_parts = 1'000'000'000'000;
+
 /// Whether other values of the parameters might be decided otherwise.
 [[nodiscard]] bool rests_on_values(const Regularity& known);
 

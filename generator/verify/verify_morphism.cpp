@@ -3,7 +3,7 @@
 
 #include "graph/calculus/differentiate.hpp"
 #include "graph/calculus/transplant.hpp"
-#include "verify/carried_distribution.hpp"
+#include "verify/mapped_systems.hpp"
 #include "verify/proof_setting.hpp"
 #include "verify/where_constant.hpp"
 

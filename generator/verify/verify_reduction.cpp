@@ -6,9 +6,9 @@
 #include "mechanics/hamilton.hpp"
 #include "mechanics/pontryagin.hpp"
 #include "mechanics/variations.hpp"
-#include "text/activity.hpp"
-#include "verify/carried_distribution.hpp"
 #include "proof/rank.hpp"
+#include "text/activity.hpp"
+#include "verify/mapped_systems.hpp"
 
 #include <algorithm>
 #include <set>

@@ -5,10 +5,9 @@
 #include "graph/calculus/transplant.hpp"
 #include "graph/core/lower.hpp"
 #include "text/activity.hpp"
-#include "verify/at_values.hpp"
 #include "verify/judge.hpp"
 #include "verify/proof_setting.hpp"
-#include "verify/reduced_fraction.hpp"
+#include "verify/singular_set.hpp"
 #include "verify/where_constant.hpp"
 
 #include <algorithm>
