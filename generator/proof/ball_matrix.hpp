@@ -30,7 +30,7 @@ struct BallMatrix {
 /// X with A X = B for all of them, A square; nothing where A is not certainly invertible.
 [[nodiscard]] std::optional<BallMatrix> solved(const BallMatrix& A, const BallMatrix& B, slong precision);
 
-/// Whether every symmetric matrix within is positive definite; a matrix without rows is.
+/// True where every symmetric matrix within is positive definite; a matrix without rows is.
 [[nodiscard]] bool is_certainly_definite(const BallMatrix& A, slong precision);
 
 // Newton's method in balls for as many equations F(z) = 0 as unknowns, with its certificate: where

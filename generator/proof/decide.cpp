@@ -36,7 +36,7 @@ class ZeroDecider::State {
     }
 
     [[nodiscard]] const ProofBudget& budget() const { return budget_; }
-    /// Whether a sample point where the residual is not 0 says so of M.
+    /// True where a sample point where the residual is not 0 says so of M.
     [[nodiscard]] bool refutes_on_M(NodeId residual) const
     {
         return !setting_.is_wider || graph_.is_constant(residual);
@@ -122,7 +122,7 @@ bool ZeroDecider::State::is_multiple(NodeId residual) const
     return numerator.empty();
 }
 
-/// Whether the normal form is 0, with no condition, within this work.
+/// True where the normal form is 0, with no condition, within this work.
 bool ZeroDecider::State::vanishes(NodeId residual, const Work& work) const
 {
     try {

@@ -155,8 +155,8 @@ void NormalForm::add_definedness()
     }
 }
 
-/// Whether every divisor in the node's fraction is one that the node divides by, so that none of them vanishes where it
-/// is defined. Not so with functions whose formulas divide where they are defined (Stumpff), and with branches.
+/// True where every divisor in the node's fraction is one that the node divides by, so that none of them vanishes where
+/// it is defined. Not so with functions whose formulas divide where they are defined (Stumpff), and with branches.
 bool NormalForm::divides_as_written(NodeId root) const
 {
     for (const NodeId node : reachable(graph_, std::vector<NodeId>{root})) {
@@ -347,7 +347,7 @@ Fraction NormalForm::hyperbolic_tangent(const Fraction& a)
 
 namespace {
 
-/// Whether a comparison of d with 0 holds, where the signs that d may have decide it.
+/// True where a comparison of d with 0 holds, where the signs that d may have decide it.
 std::optional<bool> compared(const Trichotomy& holds, const Signs& d)
 {
     const bool yes = (d.negative && holds.below) || (d.zero && holds.equal) || (d.positive && holds.above);

@@ -7,7 +7,7 @@
 
 namespace lagen::proof {
 
-/// Whether the node is proved to vanish wherever everything is defined. Every case of a distinction must be proved,
+/// True where the node is proved to vanish wherever everything is defined. Every case of a distinction must be proved,
 /// excluded by the facts, or undefined; at most 81 cases, each within `budget`. Assumes that the node is defined
 /// somewhere.
 [[nodiscard]] bool proves_by_cases(const Graph& graph, const ProofSetting& setting,

@@ -313,7 +313,7 @@ Signs Ring::exponential_signs(const Polynomial& p, int depth)
     return p[0].coefficient > 0 ? order : -order;
 }
 
-/// Whether the image of one of the shifts leads from `from` to `to`.
+/// True where the image of one of the shifts leads from `from` to `to`.
 bool Ring::leads_to(const Polynomial& from, GeneratorId to) const
 {
     std::vector<GeneratorId> open;

@@ -309,7 +309,7 @@ std::vector<Ball> in_box(const SlopedFunctions& functions, const std::vector<Bal
     return found.slope.entries;
 }
 
-/// Whether it has no more of a radius than rounding gives it, or a part of the one before.
+/// True where it has no more of a radius than rounding gives it, or a part of the one before.
 bool is_narrow(const Ball& ball, double before)
 {
     const double size = std::fabs(arf_get_d(arb_midref(ball.get()), ARF_RND_NEAR)), radius = radius_of(ball);

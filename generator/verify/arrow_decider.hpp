@@ -54,7 +54,7 @@ struct GroupChart {
 /// Of a matrix whose inverse is written out in a proof.
 inline constexpr std::size_t most_chart_rows = 6;
 
-/// Whether the group has such coordinates, in matrices that are not too large for a proof.
+/// True where the group has such coordinates, in matrices that are not too large for a proof.
 [[nodiscard]] bool has_chart(const Groupoid& groupoid);
 
 /// `W`: inputs of a matrix of the groupoid.

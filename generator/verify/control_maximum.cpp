@@ -370,8 +370,8 @@ std::string ControlProofs::kink_in(const std::vector<NodeId>& roots)
     return {};
 }
 
-/// Whether the operation is defined, with all its derivatives, for all admissible controls; kinks and cuts are told by
-/// kink_in().
+/// True where the operation is defined, with all its derivatives, for all admissible controls; kinks and cuts are told
+/// by kink_in().
 bool ControlProofs::is_smooth(NodeId node)
 {
     const Sense sense = smooth_where(graph_, node);

@@ -144,7 +144,7 @@ void Claims::decide_invariants(Report& report, const std::vector<NamedTree>& ext
     if (steps) decide_along_steps(report, claims);
 }
 
-/// Whether a motion goes through each point of E: W ydot = f can be solved there, k^a f_a = 0 where k^a W_ab = 0.
+/// True where a motion goes through each point of E: W ydot = f can be solved there, k^a f_a = 0 where k^a W_ab = 0.
 bool Claims::motions_fill(const Regularity& regularity)
 {
     if (!lagrangian_ || regularity.of != Regularity::Matrix::lagrangian ||
@@ -328,7 +328,7 @@ void Claims::decide_along_steps(Report& report, const std::vector<NamedTree>& cl
     }
 }
 
-// Whether the candidate of [hamilton_jacobi] is closed and solves Hamilton and Jacobi's equation.
+// Says whether the candidate of [hamilton_jacobi] is closed and solves Hamilton and Jacobi's equation.
 
 void Claims::decide_hamilton_jacobi(StructureReport& structure, const Regularity& regularity)
 {

@@ -22,11 +22,7 @@ void Claims::decide_constraints(StructureReport& structure)
     const std::size_t k = distribution.sections.size(), r = system_.r();
     if (distribution.is_solved || distribution.constraints.empty()) return;
     const auto append = [&](std::vector<std::string> indices, NodeId residual) {
-        if (graph_.is_zero(residual)) {
-            ++structure.trivial;
-            return;
-        }
-        structure.checks.push_back({"constraint", std::move(indices), judge_->decide(residual)});
+        structure.append(graph_, "constraint", std::move(indices), residual, *judge_);
     };
     const std::vector<NodeId> B = constraint_rows(graph_, system_);
     for (std::size_t A = 0; A < distribution.constraints.size(); ++A) {

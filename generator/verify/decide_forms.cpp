@@ -138,7 +138,7 @@ class ActionClaims {
 
     [[nodiscard]] Decision decide(NodeId residual) { return decider_.decide(residual); }
 
-    /// Whether x.(W W') = (x.W').W, by a proof.
+    /// True where x.(W W') = (x.W').W, by a proof.
     [[nodiscard]] bool is_left_action()
     {
         return std::ranges::all_of(left_, [&](NodeId residual) {
@@ -205,12 +205,7 @@ void Claims::decide_action(StructureReport& structure)
 void Claims::append_equality(StructureReport& structure, const char* name, std::vector<std::string> indices,
                              NodeId value, NodeId wanted)
 {
-    const NodeId residual = graph_.subtract(value, wanted);
-    if (graph_.is_zero(residual)) {
-        ++structure.trivial;
-        return;
-    }
-    structure.checks.push_back({name, std::move(indices), judge_->decide(residual)});
+    structure.append(graph_, name, std::move(indices), graph_.subtract(value, wanted), *judge_);
 }
 
 void Claims::decide_groupoid(StructureReport& structure)
@@ -239,7 +234,7 @@ void Claims::decide_groupoid(StructureReport& structure)
 
 namespace {
 
-/// Whether `check` tells more than `known` of the same pair: refuted before undecided before proved.
+/// True where `check` tells more than `known` of the same pair: refuted before undecided before proved.
 bool is_worse(const Check& check, const Check& known)
 {
     const ProofStatus status = check.decision.status, before = known.decision.status;

@@ -110,7 +110,7 @@ ReducedMinor reduced_minor(Graph& graph, NodeId minor, const ProofSetting& setti
     return result;
 }
 
-/// Whether these minors have no common zero: the sum of their squares is positive.
+/// True where these minors have no common zero: the sum of their squares is positive.
 bool have_no_common_zero(Graph& graph, const std::vector<ReducedMinor>& minors, const ZeroDecider& decider)
 {
     std::vector<NodeId> squares;

@@ -126,7 +126,7 @@ class SmoothSet {
     std::string obstacle_;
 };
 
-/// Whether W does not depend on y: its derivatives are proved to be zero.
+/// True where W does not depend on y: its derivatives are proved to be zero.
 bool is_quadratic(Graph& graph, const FibreHessian& hessian, SmoothSet& smooth)
 {
     std::set<NodeId> seen; // most entries are the same 0

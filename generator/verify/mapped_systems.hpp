@@ -29,7 +29,7 @@ class MappedSystems {
     [[nodiscard]] const System& from() const { return morphism.source; }
     [[nodiscard]] const System& to() const { return morphism.target; }
 
-    /// Whether no force of either side depends on first-order states, whose own equations are not compared.
+    /// True where no force of either side depends on first-order states, whose own equations are not compared.
     [[nodiscard]] bool compares_forces() const;
     [[nodiscard]] bool is_constrained() const { return from().distribution || to().distribution; }
 

@@ -104,7 +104,7 @@ Kind kind_everywhere(const Case& one, bool& definite)
     return Kind::regular;
 }
 
-/// Whether W, which is regular at one point, is so at almost all.
+/// True where W, which is regular at one point, is so at almost all.
 bool is_regular_almost_everywhere(const Case& one)
 {
     return std::ranges::all_of(one.hessian.blocks, [&](const Block& block) {

@@ -136,7 +136,7 @@ class Reduction {
         });
     }
 
-    /// Whether W is proved to be singular everywhere, by one of its blocks.
+    /// True where W is proved to be singular everywhere, by one of its blocks.
     bool is_singular(const FibreHessian& hessian)
     {
         return std::ranges::any_of(hessian.blocks, [&](const std::vector<std::size_t>& block) {
@@ -145,7 +145,7 @@ class Reduction {
         });
     }
 
-    /// Whether Phi^* of the target's equations, W' Phi ydot + rest = 0, are the source's, W ydot = f, by sections of
+    /// True where Phi^* of the target's equations, W' Phi ydot + rest = 0, are the source's, W ydot = f, by sections of
     /// the source: nothing is divided by.
     bool decide_lifts(const Accelerations& here, const Accelerations& there, const std::vector<NodeId>& rest)
     {
