@@ -15,6 +15,7 @@
 #include "verify/singular_set.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lagen {
 namespace {
@@ -234,7 +235,28 @@ class DiscreteRegularity {
                                                              : "W = cay(s(c) E_c) with the generators E_c of the group";
     }
 
-    /// k with N k = 0 for a column j outside of the minor, whose part in the block of j is used. Nothing where that is
+    /// k with N k = 0 for a column j outside of a minor, k^j = 1, N_PQ k^Q = -N_Pj, if it has small fractions as
+    /// entries at the point where the minor was found.
+    [[nodiscard]] std::vector<NodeId> constant_entries(const Minor& minor, std::size_t j)
+    {
+        std::vector<long double> matrix, right;
+        for (const std::size_t p : minor.rows) {
+            for (const std::size_t q : minor.columns) matrix.push_back(numbers_[p * m_ + q]);
+            right.push_back(-numbers_[p * m_ + j]);
+        }
+        const std::vector<long double> z = substitute(factorise(std::move(matrix), right.size()), right);
+        std::vector<NodeId> k(m_, graph_.constant(0));
+        k[j] = graph_.constant(1);
+        constexpr long multiple = 2520; // of the denominators up to 10
+        for (std::size_t i = 0; i < z.size(); ++i) {
+            const long double scaled = std::round(z[i] * multiple);
+            if (!(std::abs(z[i] * multiple - scaled) < 1e-6L && std::abs(scaled) < 1e6L)) return {};
+            k[minor.columns[i]] = graph_.constant(Rational(static_cast<long>(scaled), multiple));
+        }
+        return k;
+    }
+
+    /// The same by Cramer's rule, with the part of the minor in the block of j. Nothing where that is
     /// too large.
     [[nodiscard]] std::vector<NodeId> kernel_vector(const Chart& chart, const Minor& minor, std::size_t j)
     {
@@ -255,8 +277,13 @@ class DiscreteRegularity {
         std::vector<std::vector<NodeId>> vectors;
         for (std::size_t j = 0; j < m_; ++j) {
             if (std::ranges::find(minor.columns, j) != minor.columns.end()) continue;
-            std::vector<NodeId> k = kernel_vector(chart, minor, j);
-            if (k.empty() || !FunctionMatrix(graph_, chart.nodes, m_, m_).maps_to_zero(k, *chart.decider)) return {};
+            const FunctionMatrix N(graph_, chart.nodes, m_, m_);
+            const auto is_in_kernel = [&](const std::vector<NodeId>& k) {
+                return !k.empty() && N.maps_to_zero(k, *chart.decider);
+            };
+            std::vector<NodeId> k = constant_entries(minor, j);
+            if (!is_in_kernel(k)) k = kernel_vector(chart, minor, j);
+            if (!is_in_kernel(k)) return {};
             vectors.push_back(std::move(k));
         }
         return vectors;

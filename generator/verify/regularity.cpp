@@ -44,6 +44,10 @@ std::optional<std::size_t> generic_rank(Graph& graph, const FibreHessian& hessia
     const std::vector<Rational> there = values_at_point(graph, entries, decider);
     if (!there.empty() && rank_of(there, block.size()) == block.size()) return block.size();
     if (block.size() > determinant_limit) return {};
+    // Of constraints that describe several parts a smaller minor may vanish on one: the determinant speaks of all.
+    const ProofStatus singular = decider.status(block_determinant(graph, hessian, block));
+    if (singular == ProofStatus::refuted) return block.size();
+    if (singular == ProofStatus::undecided) return {};
     const auto minor = FunctionMatrix(graph, entries, block.size(), block.size()).largest_minor(decider);
     return minor ? std::optional(minor->rows.size()) : std::nullopt;
 }
