@@ -9,10 +9,10 @@
 namespace lagen::proof {
 namespace {
 
-constexpr int deepest = 3;               ///< products of facts that are looked through
-constexpr std::size_t most_steps = 80;   ///< polynomials looked at for one question
-constexpr std::size_t strict_steps = 12; ///< further ones, where a fact says p >= 0 and only p = 0 is left open
-constexpr std::size_t most_terms = 300;  ///< of a polynomial whose sign is asked for; rational ranges are slow
+constexpr int deepest = 3;                  ///< products of facts that are looked through
+constexpr std::size_t most_sign_steps = 80; ///< polynomials looked at for one question
+constexpr std::size_t strict_steps = 12;    ///< further ones, where a fact says p >= 0 and only p = 0 is left open
+constexpr std::size_t most_terms = 300;     ///< of a polynomial whose sign is asked for; rational ranges are slow
 
 /// p over its positive content, so that positive multiples are equal.
 Polynomial primitive(const Polynomial& p)
@@ -140,7 +140,7 @@ std::vector<Polynomial> Ring::rewritings(const Polynomial& p)
 
 Signs Ring::signs(const Polynomial& p)
 {
-    sign_steps_ = most_steps;
+    sign_steps_ = most_sign_steps;
     return signs(p, 0);
 }
 

@@ -296,7 +296,7 @@ constexpr slong term_bits = 256;
 /// what jumps stays as large. Around a point that is known exactly one box as small as one likes has no jump in it that
 /// is more than rounding.
 constexpr slong boxes[] = {40, 60, 80}, least_box = 1 << 20;
-constexpr double much_smaller = 0x1p-4, negligible_radius = 0x1p-150, rounding = 0x1p-180;
+constexpr double much_smaller = 0x1p-4, negligible_radius = 0x1p-150, relative_rounding = 0x1p-180;
 
 using Nodes = std::vector<NodeId>;
 
@@ -314,7 +314,7 @@ bool is_narrow(const Ball& ball, double before)
 {
     const double size = std::fabs(arf_get_d(arb_midref(ball.get()), ARF_RND_NEAR)), radius = radius_of(ball);
     return std::isfinite(size) && std::isfinite(radius) && std::isfinite(before) &&
-           radius <= much_smaller * before + negligible_radius + rounding * size;
+           radius <= much_smaller * before + negligible_radius + relative_rounding * size;
 }
 
 /// What a sum, a multiple or a component of a solution is made of; nothing of anything else.

@@ -10,7 +10,7 @@
 namespace lagen {
 namespace {
 
-void append(std::vector<NodeId>& nodes, const std::vector<NodeId>& more)
+void append_nodes(std::vector<NodeId>& nodes, const std::vector<NodeId>& more)
 {
     nodes.insert(nodes.end(), more.begin(), more.end());
 }
@@ -21,16 +21,16 @@ std::vector<NodeId> defined_nodes(const System& system)
     std::vector<NodeId> nodes = system.algebroid.entries();
     for (const std::optional<NodeId>& function : {system.lagrangian, system.hamiltonian})
         if (function) nodes.push_back(*function);
-    append(nodes, system.forces);
+    append_nodes(nodes, system.forces);
     if (system.distribution)
         for (const Section& section : system.distribution->sections)
             for (const ColumnEntry& entry : section) nodes.push_back(entry.value);
     if (system.control) {
-        append(nodes, system.control->sigma);
+        append_nodes(nodes, system.control->sigma);
         nodes.push_back(system.control->cost);
     }
-    append(nodes, system.functions.casimirs);
-    append(nodes, system.partial_parts);
+    append_nodes(nodes, system.functions.casimirs);
+    append_nodes(nodes, system.partial_parts);
     std::erase_if(nodes, [&](NodeId node) { return system.graph.is_constant(node); });
     std::ranges::sort(nodes);
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
@@ -58,11 +58,11 @@ ProofSetting proof_setting(Graph& graph, const System& system)
 {
     ProofSetting setting;
     setting.variables = system.algebroid.x;
-    append(setting.variables, system.velocities());
-    if (system.hamiltonian || system.control) append(setting.variables, system.mu);
-    if (system.control) append(setting.variables, system.control->u);
-    append(setting.variables, system.inputs);
-    append(setting.variables, named_states(system));
+    append_nodes(setting.variables, system.velocities());
+    if (system.hamiltonian || system.control) append_nodes(setting.variables, system.mu);
+    if (system.control) append_nodes(setting.variables, system.control->u);
+    append_nodes(setting.variables, system.inputs);
+    append_nodes(setting.variables, named_states(system));
     setting.variables.push_back(system.time);
     setting.parameters = system.parameters;
     setting.constraints = system.functions.constraints;

@@ -18,7 +18,7 @@ namespace lagen {
 namespace {
 
 using Block = std::vector<std::size_t>;
-using Kind = Regularity::Kind;
+using RegularityKind = Regularity::Kind;
 
 /// The values of nodes at a sample point; empty where there is none, or they are not rational there.
 std::vector<Rational> values_at_point(const Graph& graph, const std::vector<NodeId>& nodes, const ZeroDecider& decider)
@@ -95,7 +95,7 @@ std::optional<std::size_t> generic_rank(const Case& one, std::string& evidence)
 }
 
 /// Regular where blocks are definite, and the determinants of the others, from the first one that is not, not zero.
-Kind kind_everywhere(const Case& one, bool& definite)
+RegularityKind kind_everywhere(const Case& one, bool& definite)
 {
     definite = true;
     for (const Block& block : one.hessian.blocks) {
@@ -103,9 +103,9 @@ Kind kind_everywhere(const Case& one, bool& definite)
             definite && proves_matrix_definite(one.graph, one.hessian.submatrix(block), block.size(), one.decider);
         if (definite) continue;
         const auto determinant = determinant_of_block(one.graph, one.hessian, block);
-        if (!determinant || !one.decider.proves_nonzero(*determinant)) return Kind::generically_regular;
+        if (!determinant || !one.decider.proves_nonzero(*determinant)) return RegularityKind::generically_regular;
     }
-    return Kind::regular;
+    return RegularityKind::regular;
 }
 
 /// True where W, which is regular at one point, is so at almost all.
@@ -125,23 +125,23 @@ Regularity decide_case(const Case& one)
     const std::size_t full = one.hessian.y.size();
     // The sign rule needs neither ranks nor determinants.
     if (proves_definite_by_parts(one.graph, one.hessian, one.decider) && one.decider.sample_point()) {
-        result.kind = Kind::regular;
+        result.kind = RegularityKind::regular;
         result.rank = full;
         result.positive_definite = true;
         return result;
     }
-    result.kind = Kind::undecided;
+    result.kind = RegularityKind::undecided;
     const std::optional<std::size_t> rank = generic_rank(one, result.evidence);
     if (!rank) return result;
     result.rank = *rank;
-    result.kind = *rank < full ? Kind::degenerate : kind_everywhere(one, result.positive_definite);
-    if (one.setting.is_wider && result.kind != Kind::regular) {
-        result.kind = Kind::undecided;
+    result.kind = *rank < full ? RegularityKind::degenerate : kind_everywhere(one, result.positive_definite);
+    if (one.setting.is_wider && result.kind != RegularityKind::regular) {
+        result.kind = RegularityKind::undecided;
         result.evidence = "W is looked at on a larger set: not all base constraints are triangular";
         return result;
     }
-    if (result.kind == Kind::generically_regular && !is_regular_almost_everywhere(one)) {
-        result.kind = Kind::undecided;
+    if (result.kind == RegularityKind::generically_regular && !is_regular_almost_everywhere(one)) {
+        result.kind = RegularityKind::undecided;
         result.evidence = "each block of W is regular at a point; that all are so almost everywhere is not shown";
     }
     return result;
@@ -178,7 +178,7 @@ Regularity decide_regularity(Graph& graph, const FibreHessian& hessian, const Pr
     const Case all{graph, hessian, setting, decider};
     Regularity result = decide_case(all);
     if (result.positive_definite) return result;
-    if (result.kind == Kind::degenerate) {
+    if (result.kind == RegularityKind::degenerate) {
         describe_kernel(result, all);
         return result;
     }
@@ -186,17 +186,17 @@ Regularity decide_regularity(Graph& graph, const FibreHessian& hessian, const Pr
     if (!there) return result;
     const Case given{graph, there->hessian, there->setting, *there->decider};
     const Regularity here = values.empty() ? result : decide_case(given);
-    if (here.kind == Kind::regular && (here.positive_definite || result.kind != Kind::regular)) {
+    if (here.kind == RegularityKind::regular && (here.positive_definite || result.kind != RegularityKind::regular)) {
         result = here;
         result.for_given_parameters = true;
     }
-    if (result.kind == Kind::regular || result.rank < hessian.y.size()) return result;
+    if (result.kind == RegularityKind::regular || result.rank < hessian.y.size()) return result;
     describe_singular(result, all, given, values);
-    if (result.kind == Kind::generically_regular && here.kind == Kind::undecided) {
-        result.kind = Kind::undecided;
+    if (result.kind == RegularityKind::generically_regular && here.kind == RegularityKind::undecided) {
+        result.kind = RegularityKind::undecided;
         result.evidence = here.evidence + " for the parameter values of the file";
     }
-    if (result.kind == Kind::undecided) result.singular_where.clear();
+    if (result.kind == RegularityKind::undecided) result.singular_where.clear();
     return result;
 }
 
