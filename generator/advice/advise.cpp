@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "advice/advise.hpp"
 
-#include "advice/repair_search.hpp"
+#include "advice/repair.hpp"
 #include "verify/proof_setting.hpp"
 
 #include <algorithm>
@@ -138,9 +138,8 @@ void advise(const System& system, Report& report, const ProofBudget& budget)
     Judge judge(graph, proof_setting(graph, system), budget);
     for (std::size_t k = 0; k < list.residuals.size(); ++k)
         judge.remember(list.residuals[k].value, report.structure.checks[k].decision);
-    RepairSearch search(graph, partial, judge, system.written.algebroid, system.algebroid, system.functions,
-                        system.editable);
-    const std::vector<std::string> hints = search.hints(list);
+    const std::vector<std::string> hints = repair_hints(judge, partial, system.algebroid, system.written.algebroid,
+                                                        system.functions, system.editable, list);
     for (std::size_t k = 0; k < hints.size(); ++k) {
         Check& check = report.structure.checks[k];
         const bool casimir = check.name == "casimir" && check.decision.status == ProofStatus::refuted;

@@ -19,7 +19,7 @@ class OrthonormalSpan {
     [[nodiscard]] bool contains(const Vector& a) const;
     /// The unit vector that sticks out farthest of a span that is not everything, or what sticks out of it.
     [[nodiscard]] Vector farthest_outside(std::size_t n) const;
-    /// Whether it was new: false where the span contains it.
+    /// True where it was new: false where the span contains it.
     bool add(const Vector& a);
 
     [[nodiscard]] std::size_t size() const { return basis_.size(); }

@@ -60,7 +60,7 @@ std::vector<Consequence> consequences(const VerifiedMorphism& verified)
              "the composition is the reduction by its stages"}};
 }
 
-std::string rank_text(const FibreRank& rank)
+std::string rank_text(const GenericRank& rank)
 {
     if (!rank.rank) return "not decided";
     std::string text = std::to_string(*rank.rank);
@@ -92,7 +92,7 @@ std::string extent_text(const MorphismReport& map)
 
 Record body_of(const VerifiedMorphism& verified)
 {
-    const FibreRank& rank = verified.map.rank;
+    const GenericRank& rank = verified.map.rank;
     const ReachOfMap& reach = verified.map.reach;
     Record record = {{"model", verified.name}, {"verdict", to_text(verdict_of(verified))}};
     add_structure(record, verified.map.structure);

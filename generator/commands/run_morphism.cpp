@@ -141,7 +141,7 @@ void require_lift(const VerifiedMorphism& verified, const std::string& form)
 {
     if (form_named(form).steps)
         throw UsageError("--reconstruct is of motions in continuous time, and the scene is a discrete one");
-    const FibreRank& rank = verified.map.rank;
+    const GenericRank& rank = verified.map.rank;
     if (rank.surjective && rank.injective && rank.where.empty()) return;
     throw MathematicsError(
         fmt::format("the morphism '{}' is not shown to be bijective on every fibre, as --reconstruct "

@@ -135,7 +135,7 @@ void prepare_start(StartState& start, const Model& model, const Scene& scene, co
     (void)start.prepare(starts_from_momenta(model, scene), !model.fibre.coordinates.empty());
     if (!start.rests_on_decision()) return;
     const bool sets = std::ranges::any_of(rows.names, [](const SweptName& name) { return name.option == "set"; });
-    if (!sets || record.regularity.empty()) return;
+    if (!sets || record.decided_for.empty()) return;
     throw MathematicsError("the start converts between momenta and fibre coordinates, which is decided for the "
                            "parameters of the scene alone",
                            "give `initial` the lanes of the form, or keep the parameters as they are");

@@ -17,7 +17,7 @@ namespace lagen {
 /// one.
 void require_groupoid(const Model& model);
 
-/// Whether it is shown that the Cayley map leads from the algebra of the model's group into the group.
+/// True where it is shown that the Cayley map leads from the algebra of the model's group into the group.
 [[nodiscard]] bool has_cayley_map(const Model& model);
 
 /// exp over the inputs s, of the group of the system.

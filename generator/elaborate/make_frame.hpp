@@ -2,7 +2,9 @@
 /// Frames of the tangent spaces of level sets M = {f^A(x) = 0}, A = 1..m, with B^A_i = df^A/dx^i of rank m on M.
 #pragma once
 
-#include "elaborate/choose_kept.hpp"
+#include "elaborate/build_workspace.hpp"
+#include "graph/calculus/places.hpp"
+#include "model/read_model.hpp"
 
 namespace lagen {
 
@@ -17,5 +19,33 @@ namespace lagen {
 
 /// All that the reading of a model asks for.
 [[nodiscard]] Choosers choosers();
+
+// Which coordinates linear constraints B Y = beta leave free on the whole domain: those whose complement has a minor
+// that is proved to vanish nowhere.
+
+/// The rows B^A of m constraints on r coordinates.
+struct ConstraintRows {
+    std::vector<NodeId> B; ///< B^A_a, by rows, shape (m, r)
+    std::size_t m, r;
+
+    /// The columns that are not kept.
+    [[nodiscard]] Places solved(const Places& kept) const;
+    [[nodiscard]] NodeId minor(Graph& graph, const Places& kept) const;
+};
+
+/// The first choice that is proved, and what stands in the way of the others.
+struct KeptChoice {
+    std::optional<Places> kept;
+    std::string minors;     ///< "2*z (keeping v_x, v_y), .."; empty where all are zero
+    std::vector<Tree> open; ///< factors of the minor with the fewest whose signs are not known, without their own
+};
+
+/// Of all choices of r - m columns, in lexicographic order, or of `wanted` alone.
+[[nodiscard]] KeptChoice choose_free(BuildWorkspace& work, const ConstraintRows& rows,
+                                     const std::vector<Symbol>& coordinates, const Places& wanted = {});
+
+/// The ambient coordinates that a nonholonomic model by constraints keeps, where it does not say so: of constraints
+/// that are dependent everywhere the first choice. Throws MathematicsError where there is none.
+[[nodiscard]] std::vector<std::size_t> choose_kept(const Model& model);
 
 } // namespace lagen

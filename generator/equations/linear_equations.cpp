@@ -24,24 +24,16 @@ bool all_numbers(const SquareMatrix& matrix)
                        [](const GiNaC::ex& entry) { return GiNaC::is_a<GiNaC::numeric>(entry); });
 }
 
-GiNaC::ex determinant_of(const SquareMatrix& matrix)
-{
-    return determinant(GinacRing{matrix.entries, matrix.order}, matrix.order);
-}
-
 /// Cramer's rule: det(A with b for column k) / det A.
 std::optional<GiNaC::exvector> solve_by_determinants(const SquareMatrix& A, const GiNaC::exvector& b,
                                                      const Rewriting& simpler, const Rewriting& divisor)
 {
-    GiNaC::ex whole = simpler(determinant_of(A));
+    const GinacRing ring{A.entries, A.order};
+    GiNaC::ex whole = simpler(determinant(ring, A.order));
     if (whole.is_zero()) return {};
     if (divisor) whole = divisor(whole);
     GiNaC::exvector z;
-    for (std::size_t k = 0; k < A.order; ++k) {
-        SquareMatrix replaced = A;
-        for (std::size_t i = 0; i < A.order; ++i) replaced.entries[i * A.order + k] = b[i];
-        z.push_back(simpler(determinant_of(replaced)) / whole);
-    }
+    for (std::size_t k = 0; k < A.order; ++k) z.push_back(simpler(numerator(ring, k, b)) / whole);
     return z;
 }
 

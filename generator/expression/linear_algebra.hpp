@@ -136,6 +136,25 @@ template <class Ring>
     return minors[whole];
 }
 
+/// Cramer's rule: the determinant of the ring's matrix with b for one column is the numerator of that unknown.
+template <class Ring>
+struct WithColumn : Ring {
+    std::size_t place;
+    const std::vector<typename Ring::Number>& b;
+
+    [[nodiscard]] decltype(auto) entry(std::size_t i, std::size_t j) const
+    {
+        return j == place ? b[i] : Ring::entry(i, j);
+    }
+};
+template <class Ring>
+[[nodiscard]] typename Ring::Number numerator(const Ring& ring, std::size_t place,
+                                              const std::vector<typename Ring::Number>& b,
+                                              ExpandBy expansion = ExpandBy::first_row)
+{
+    return determinant(WithColumn<Ring>{ring, place, b}, b.size(), expansion);
+}
+
 /// The classes of 0 .. count - 1 that `joined(i, j)` connects, each ascending, by their first members.
 template <class Joined>
 [[nodiscard]] std::vector<std::vector<std::size_t>> connected_classes(std::size_t count, const Joined& joined)

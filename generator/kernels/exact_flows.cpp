@@ -4,7 +4,7 @@
 #include "graph/calculus/differentiate.hpp"
 #include "mechanics/momentum_balance.hpp"
 #include "verify/proof_setting.hpp"
-#include "verify/reduced_fraction.hpp"
+#include "verify/singular_set.hpp"
 
 #include <fmt/format.h>
 

@@ -39,10 +39,11 @@ void add_kernels(Graph& graph, const System& system, const HamiltonianNodes& ham
     form.kernels.push_back(hessian_kernel(graph, form, "hamiltonian_hessian", first));
 }
 
-/// |p - v| < 1e-12 |v| for each parameter p that y(x, mu) is proved to be unique for at the value v alone.
+/// |p - v| < |v| / proved_value_parts for each parameter p that y(x, mu) is proved to be unique for at the value v
+/// alone.
 void require_proved_values(Graph& graph, const Regularity& regularity, Formulation& form)
 {
-    const NodeId relative = graph.constant(Rational(1, 1'000'000'000'000));
+    const NodeId relative = graph.constant(Rational(1, proved_value_parts));
     for (const auto& [p, value] : regularity.legendre_values) {
         const NodeId size = graph.is_zero(value) ? graph.constant(1) : graph.apply(Op::abs, value);
         const NodeId distance = graph.apply(Op::abs, graph.subtract(p, value));

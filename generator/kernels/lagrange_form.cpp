@@ -5,7 +5,7 @@
 #include "kernels/formulation.hpp"
 #include "mechanics/lagrange.hpp"
 #include "mechanics/variations.hpp"
-#include "verify/fibre_rank.hpp"
+#include "proof/rank.hpp"
 #include "verify/proof_setting.hpp"
 
 #include <fmt/format.h>
@@ -26,7 +26,7 @@ std::optional<std::vector<NodeId>> slope_by_inputs(Graph& graph, const System& s
     const std::vector<NodeId> slope = joined_rows(jacobian(graph, force, system.inputs));
     if (depends_on_any(graph, slope, system.inputs)) return std::nullopt;
     const auto decider = ZeroDecider::make(graph, proof_setting(graph, system));
-    if (!decider || !fibre_rank(graph, slope, r, r, *decider).surjective) return std::nullopt;
+    if (!decider || !generic_rank(graph, slope, r, r, *decider).surjective) return std::nullopt;
     return slope;
 }
 

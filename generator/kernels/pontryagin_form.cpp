@@ -6,7 +6,6 @@
 /// step, and watched.
 #include "kernels/formulation.hpp"
 #include "mechanics/pontryagin.hpp"
-#include "verify/angle_controls.hpp"
 #include "verify/control_maximum.hpp"
 
 #include <fmt/format.h>

@@ -30,7 +30,7 @@ struct DiscreteLegendre {
                                                 const std::vector<NodeId>& functions,
                                                 const std::vector<NodeId>& inner = {});
 
-/// Whether neither forces nor explicit time act on the steps of a system with a discrete Lagrangian.
+/// True where neither forces nor explicit time act on the steps of a system with a discrete Lagrangian.
 [[nodiscard]] bool keeps_energy(const System& system);
 
 /// What a step solves for the arrow h and the inner unknowns w of a scheme, with the work f of forces:

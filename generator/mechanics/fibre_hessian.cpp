@@ -67,14 +67,14 @@ std::optional<std::vector<NodeId>> affine_offset(Graph& graph, FibreHessian& hes
     return substitute_where_defined(graph, hessian.momenta, zeros);
 }
 
-NodeId minor_determinant(Graph& graph, const FibreHessian& hessian, const std::vector<std::size_t>& rows,
-                         const std::vector<std::size_t>& columns, std::optional<std::size_t> replaced,
-                         const std::vector<NodeId>& right)
+NodeId block_determinant(Graph& graph, const FibreHessian& hessian, const Places& rows)
 {
-    if (!replaced) return determinant_of(graph, hessian.hessian, hessian.y.size(), rows, columns);
-    std::vector<NodeId> matrix = hessian.hessian;
-    for (std::size_t k = 0; k < rows.size(); ++k) matrix[rows[k] * hessian.y.size() + columns.at(*replaced)] = right[k];
-    return determinant_of(graph, matrix, hessian.y.size(), rows, columns);
+    return determinant_of(graph, hessian.hessian, hessian.y.size(), rows, rows);
+}
+
+CramersRule solve_block(Graph& graph, const FibreHessian& hessian, const Places& rows, std::vector<NodeId> b)
+{
+    return {graph, hessian.hessian, hessian.y.size(), rows, rows, std::move(b)};
 }
 
 } // namespace lagen

@@ -33,9 +33,10 @@ void simplify_hessian(Graph& graph, FibreHessian& hessian);
 /// simplified where it is not free of y as it is.
 [[nodiscard]] std::optional<std::vector<NodeId>> affine_offset(Graph& graph, FibreHessian& hessian);
 
-/// det of the submatrix W(rows, columns); column `replaced` (a position in `columns`), where given, is `right` instead.
-[[nodiscard]] NodeId minor_determinant(Graph& graph, const FibreHessian& hessian, const std::vector<std::size_t>& rows,
-                                       const std::vector<std::size_t>& columns,
-                                       std::optional<std::size_t> replaced = {}, const std::vector<NodeId>& right = {});
+/// det of the block W(rows, rows).
+[[nodiscard]] NodeId block_determinant(Graph& graph, const FibreHessian& hessian, const Places& rows);
+/// z with W(rows, rows) z = b, b one entry a row; keeps references.
+[[nodiscard]] CramersRule solve_block(Graph& graph, const FibreHessian& hessian, const Places& rows,
+                                      std::vector<NodeId> b);
 
 } // namespace lagen

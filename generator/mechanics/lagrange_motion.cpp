@@ -86,21 +86,20 @@ std::optional<NodeId> LagrangeMotion::along_accelerations(const std::vector<Node
                             std::to_string(determinant_limit) + " that are solved for exactly";
             return {};
         }
-        const NodeId determinant = minor_determinant(graph_, lagrangian_->fibre, block, block);
-        if (graph_.is_zero(determinant)) {
+        std::vector<NodeId> right;
+        for (const std::size_t a : block) right.push_back(force_[a]);
+        const CramersRule ydot = solve_block(graph_, lagrangian_->fibre, block, std::move(right));
+        if (graph_.is_zero(ydot.divisor)) {
             rate.obstacle =
                 "the Lagrangian is degenerate, so that the equations of motion do not determine the accelerations";
             return {};
         }
-        rate.divisors.push_back({determinant, "det(d2L/dy2)"});
-        std::vector<NodeId> right;
-        for (const std::size_t a : block) right.push_back(force_[a]);
+        rate.divisors.push_back({ydot.divisor, "det(d2L/dy2)"});
         std::vector<NodeId> numerator;
         for (std::size_t k = 0; k < block.size(); ++k)
             if (!graph_.is_zero(f_y[block[k]]))
-                numerator.push_back(graph_.multiply(
-                    f_y[block[k]], minor_determinant(graph_, lagrangian_->fibre, block, block, k, right)));
-        terms.push_back(graph_.divide(graph_.sum(numerator), determinant));
+                numerator.push_back(graph_.multiply(f_y[block[k]], ydot.numerator(k)));
+        terms.push_back(graph_.divide(graph_.sum(numerator), ydot.divisor));
     }
     return graph_.sum(terms);
 }

@@ -14,18 +14,14 @@ std::vector<NodeId> negated(Graph& graph, std::vector<NodeId> nodes)
 
 /// u = W^-1 dH/du(u = 0) of one block of coupled controls, and the determinant that it divides by; nothing where that
 /// is zero.
-bool solve_block(Graph& graph, const ControlEquations& equations, const std::vector<std::size_t>& block,
-                 PhaseSystem& phase)
+bool find_controls(Graph& graph, const ControlEquations& equations, const Places& block, PhaseSystem& phase)
 {
-    const FibreHessian& W = equations.negative;
-    const NodeId determinant = minor_determinant(graph, W, block, block);
-    if (graph.is_zero(determinant)) return false;
-    phase.divisors.push_back({determinant, "det(d2H/du2)"});
     std::vector<NodeId> right;
     for (const std::size_t k : block) right.push_back((*equations.right)[k]);
-    for (std::size_t k = 0; k < block.size(); ++k)
-        phase.found.emplace_back(W.y[block[k]],
-                                 graph.divide(minor_determinant(graph, W, block, block, k, right), determinant));
+    const CramersRule u = solve_block(graph, equations.negative, block, std::move(right));
+    if (graph.is_zero(u.divisor)) return false;
+    phase.divisors.push_back({u.divisor, "det(d2H/du2)"});
+    for (std::size_t k = 0; k < block.size(); ++k) phase.found.emplace_back(equations.negative.y[block[k]], u(k));
     return true;
 }
 
@@ -48,7 +44,7 @@ void solve_controls(Graph& graph, const ControlProblem& control, const ControlHa
         if (block.size() > determinant_limit)
             phase.obstacle = "d2H/du2 couples " + std::to_string(block.size()) + " controls, more than the " +
                              std::to_string(determinant_limit) + " that are solved for exactly";
-        else if (!solve_block(graph, equations, block, phase))
+        else if (!find_controls(graph, equations, block, phase))
             phase.obstacle = "d2H/du2 is singular, so that dH/du = 0 does not determine the controls";
         if (phase.obstacle.empty()) continue;
         phase.found.clear();

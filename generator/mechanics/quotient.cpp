@@ -65,8 +65,10 @@ Quotient quotient(Graph& graph, const System& whole, const InfinitesimalAction& 
             made.velocity[i] = graph.add(made.velocity[i], graph.multiply(made.w[b], made.xi[b][i]));
     }
     const std::vector<NodeId> block = frozen_block(made.xi, made.slice);
-    made.determinant = determinant_of(graph, block, made.slice.frozen.size());
-    made.group = solved_by_cramer(graph, block, made.determinant, moving);
+    const Places all = first_places(made.slice.frozen.size());
+    const CramersRule group{graph, block, all.size(), all, all, moving};
+    made.determinant = group.divisor;
+    made.group = group.solution();
     for (const std::size_t i : made.free) {
         made.base.push_back(y[i]);
         for (std::size_t b = 0; b < made.w.size(); ++b)

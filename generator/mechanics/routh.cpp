@@ -65,7 +65,8 @@ Routhian routhian(Graph& graph, const System& system, std::vector<std::size_t> c
     if (graph.is_zero(made.determinant)) throw SingularMomenta(system.name);
     std::vector<NodeId> right = substitute(graph, made.momenta, at_rest);
     for (std::size_t k = 0; k < mu.size(); ++k) right[k] = graph.subtract(mu[k], right[k]);
-    made.velocities = solved_by_cramer(graph, W, made.determinant, right);
+    const Places all = first_places(mu.size());
+    made.velocities = CramersRule{graph, W, all.size(), all, all, right}.solution();
     // L is quadratic in the cyclic velocities: R = L(y^k = 0) - (p - b)_k Theta^k / 2.
     const NodeId only[] = {L};
     made.value = substitute(graph, only, at_rest)[0];

@@ -157,7 +157,7 @@ struct System {
     [[nodiscard]] const std::vector<NodeId>& velocities() const { return distribution ? distribution->y : algebroid.y; }
     /// Q_a, zeros where there are none.
     [[nodiscard]] std::vector<NodeId> forces_or_zero(Graph& graph) const;
-    /// Whether a parameter, a coordinate of E, a first-order state or a control bears this name.
+    /// True where a parameter, a coordinate of E, a first-order state or a control bears this name.
     [[nodiscard]] bool declares(const std::string& name) const;
 };
 

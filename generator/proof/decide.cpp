@@ -2,7 +2,6 @@
 /// The decision: normal form first (it is the proof and the residual's text), then certified points.
 #include "proof/decide.hpp"
 
-#include "proof/domain_signs.hpp"
 #include "proof/print_fraction.hpp"
 #include "proof/prove_by_cases.hpp"
 #include "proof/sample.hpp"
@@ -37,7 +36,7 @@ class ZeroDecider::State {
     }
 
     [[nodiscard]] const ProofBudget& budget() const { return budget_; }
-    /// Whether a sample point where the residual is not 0 says so of M.
+    /// True where a sample point where the residual is not 0 says so of M.
     [[nodiscard]] bool refutes_on_M(NodeId residual) const
     {
         return !setting_.is_wider || graph_.is_constant(residual);
@@ -123,7 +122,7 @@ bool ZeroDecider::State::is_multiple(NodeId residual) const
     return numerator.empty();
 }
 
-/// Whether the normal form is 0, with no condition, within this work.
+/// True where the normal form is 0, with no condition, within this work.
 bool ZeroDecider::State::vanishes(NodeId residual, const Work& work) const
 {
     try {
@@ -393,6 +392,17 @@ double ZeroDecider::largest_bound(NodeId residual, std::size_t points) const
 {
     const Reevaluation result = reevaluate(residual, points);
     return result.points == 0 ? std::numeric_limits<double>::infinity() : result.bound;
+}
+
+ProofBudget smaller(ProofBudget budget, const ProofBudget& other)
+{
+    budget.terms = std::min(budget.terms, other.terms);
+    budget.products = std::min(budget.products, other.products);
+    budget.points = std::min(budget.points, other.points);
+    budget.tries = std::min(budget.tries, other.tries);
+    budget.searches = std::min(budget.searches, other.searches);
+    budget.precision = std::min(budget.precision, other.precision);
+    return budget;
 }
 
 } // namespace lagen

@@ -65,9 +65,9 @@ class Elementary {
     [[nodiscard]] Fraction arccosine(const Fraction& a);
     [[nodiscard]] Fraction arctangent(const Fraction& a);
     [[nodiscard]] Fraction arctangent2(const Fraction& y, const Fraction& x);
-    /// Whether the angle a is 0, by cos a = 1 and |a| < 2 pi.
+    /// True where the angle a is 0, by cos a = 1 and |a| < 2 pi.
     [[nodiscard]] bool is_vanishing_angle(const Fraction& a);
-    /// Whether a sum of logarithms with the same cofactors, and of other terms, is 0 because its exponential is 1.
+    /// True where a sum of logarithms with the same cofactors, and of other terms, is 0 because its exponential is 1.
     [[nodiscard]] bool is_vanishing_logarithm(const Fraction& a);
     /// What is known of the sign of a, assumptions included; a sign that stays open is listed in `open_signs`.
     [[nodiscard]] Signs sign_of(const Fraction& a);

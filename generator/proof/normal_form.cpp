@@ -155,8 +155,8 @@ void NormalForm::add_definedness()
     }
 }
 
-/// Whether every divisor in the node's fraction is one that the node divides by, so that none of them vanishes where it
-/// is defined. Not so with functions whose formulas divide where they are defined (Stumpff), and with branches.
+/// True where every divisor in the node's fraction is one that the node divides by, so that none of them vanishes where
+/// it is defined. Not so with functions whose formulas divide where they are defined (Stumpff), and with branches.
 bool NormalForm::divides_as_written(NodeId root) const
 {
     for (const NodeId node : reachable(graph_, std::vector<NodeId>{root})) {
@@ -341,6 +341,89 @@ Fraction NormalForm::hyperbolic_tangent(const Fraction& a)
     const Fraction square = ring_.power(elementary_.exponential(a), 2);
     const Fraction one = ring_.constant(1);
     return ring_.divide(ring_.add(square, one, -1), ring_.add(square, one));
+}
+
+// min, max, sign, comparisons and if: by signs where these are known, else as free generators.
+
+namespace {
+
+/// True where a comparison of d with 0 holds, where the signs that d may have decide it.
+std::optional<bool> compared(const Trichotomy& holds, const Signs& d)
+{
+    const bool yes = (d.negative && holds.below) || (d.zero && holds.equal) || (d.positive && holds.above);
+    const bool no = (d.negative && !holds.below) || (d.zero && !holds.equal) || (d.positive && !holds.above);
+    return yes && no ? std::nullopt : std::optional(yes);
+}
+
+} // namespace
+
+std::optional<bool> NormalForm::holds(NodeId condition)
+{
+    const Op op = graph_.op(condition);
+    if (kind_of(op) == OpKind::comparison)
+        return compared(operator_of(op).holds,
+                        elementary_.sign_of(ring_.add(operand(condition, 0), operand(condition, 1), -1)));
+    return compared(operator_of(Op::not_equal).holds, elementary_.sign_of(done_.at(condition)));
+}
+
+Fraction NormalForm::comparison(NodeId node)
+{
+    if (const std::optional<bool> known = holds(node)) return ring_.constant(*known ? 1 : 0);
+    return elementary_.opaque(operator_of(graph_.op(node)).word, {operand(node, 0), operand(node, 1)});
+}
+
+Fraction NormalForm::choice(NodeId node)
+{
+    const std::vector<Fraction> arguments{operand(node, 0), operand(node, 1), operand(node, 2)};
+    const std::optional<bool> known = holds(graph_.operands(node)[0]);
+    return known ? arguments[*known ? 1 : 2] : elementary_.opaque("if", arguments);
+}
+
+/// min, max = (a + b -+ |a - b|)/2
+Fraction NormalForm::extremum(NodeId node, int sign)
+{
+    const Fraction& a = operand(node, 0);
+    const Fraction& b = operand(node, 1);
+    const Fraction gap = elementary_.absolute(ring_.add(a, b, -1));
+    return ring_.times(ring_.constant(mpq_class(1, 2)), ring_.add(ring_.add(a, b), gap, sign));
+}
+
+Fraction NormalForm::sign(const Fraction& a)
+{
+    const Signs signs = elementary_.sign_of(a);
+    if (static_cast<int>(signs.negative) + signs.zero + signs.positive == 1)
+        return ring_.constant(signs.positive ? 1 : signs.negative ? -1 : 0);
+    return elementary_.opaque("sign", {a});
+}
+
+// What the definedness of roots and logarithms says about the signs of their operands.
+
+namespace {
+
+bool is_simple(const Graph& graph, NodeId operand)
+{
+    for (const NodeId node : reachable(graph, std::vector<NodeId>{operand})) {
+        const Op op = graph.op(node);
+        if (!is_rational(op) && op != Op::sin && op != Op::cos) return false;
+    }
+    return true;
+}
+
+} // namespace
+
+std::vector<NonnegativeOperand> nonnegative_operands(const Graph& graph, const std::vector<NodeId>& roots)
+{
+    std::vector<NonnegativeOperand> found;
+    const std::vector<NodeId> needed = certainly_needed(graph, roots);
+    for (std::size_t k = needed.size(); k-- > 0;) {
+        const NodeId node = needed[k];
+        const Sense sense = known_where_defined(graph, node);
+        if (operator_of(graph.op(node)).condition_operand != 0) continue;
+        if (sense != Sense::positive && sense != Sense::nonnegative) continue;
+        const NodeId operand = graph.operands(node)[0];
+        if (is_simple(graph, operand)) found.push_back({operand, sense == Sense::positive});
+    }
+    return found;
 }
 
 } // namespace lagen::proof

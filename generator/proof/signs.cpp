@@ -4,15 +4,15 @@
 #include "proof/ring.hpp"
 
 #include <algorithm>
+#include <set>
 
 namespace lagen::proof {
-
 namespace {
 
-constexpr int deepest = 3;               ///< products of facts that are looked through
-constexpr std::size_t most_steps = 80;   ///< polynomials looked at for one question
-constexpr std::size_t strict_steps = 12; ///< further ones, where a fact says p >= 0 and only p = 0 is left open
-constexpr std::size_t most_terms = 300;  ///< of a polynomial whose sign is asked for; rational ranges are slow
+constexpr int deepest = 3;                  ///< products of facts that are looked through
+constexpr std::size_t most_sign_steps = 80; ///< polynomials looked at for one question
+constexpr std::size_t strict_steps = 12;    ///< further ones, where a fact says p >= 0 and only p = 0 is left open
+constexpr std::size_t most_terms = 300;     ///< of a polynomial whose sign is asked for; rational ranges are slow
 
 /// p over its positive content, so that positive multiples are equal.
 Polynomial primitive(const Polynomial& p)
@@ -140,7 +140,7 @@ std::vector<Polynomial> Ring::rewritings(const Polynomial& p)
 
 Signs Ring::signs(const Polynomial& p)
 {
-    sign_steps_ = most_steps;
+    sign_steps_ = most_sign_steps;
     return signs(p, 0);
 }
 
@@ -190,6 +190,222 @@ Signs Ring::signs(const Fraction& a)
         known = known * proof::power(factor, exponent);
     }
     return known;
+}
+
+// Signs of sums of groups: p = sum_k P_k g^k in one generator g, whose parts have signs of their own; quadratics by
+// their discriminant, roots by their norm, exponentials by their exponents, and polynomials with the variables
+// measured from the bounds that the domain gives them.
+
+namespace {
+
+constexpr std::size_t most_groups = 60;  ///< terms of a polynomial that is split into groups
+constexpr std::size_t longest_shift = 8; ///< terms of a fact that measures a variable
+constexpr unsigned highest_shift = 8;    ///< power of a variable that is measured anew
+
+std::map<GeneratorId, std::map<unsigned, Polynomial>> groups_of(const Polynomial& p)
+{
+    std::map<GeneratorId, std::map<unsigned, Polynomial>> groups;
+    for (const Term& term : p)
+        for (std::size_t k = 0; k < term.monomial.size(); ++k) groups[term.monomial.generator(k)];
+    for (auto& [id, parts] : groups)
+        // Descending order survives the removal of one generator from terms that share its exponent.
+        for (const Term& term : p)
+            parts[term.monomial.exponent_of(id)].push_back({term.monomial.without(id), term.coefficient});
+    return groups;
+}
+
+bool settled(const Signs& known)
+{
+    return static_cast<int>(known.negative) + known.zero + known.positive <= 1;
+}
+
+} // namespace
+
+Signs Ring::grouped_signs(const Polynomial& p, int depth)
+{
+    Signs known;
+    if (p.size() > most_groups) return known;
+    const auto groups = groups_of(p);
+    // Quadratics and roots first: they lose nothing.
+    for (const auto& [id, parts] : groups) {
+        if (settled(known)) return known;
+        if (parts.rbegin()->first == 2 && parts.size() == 3) known = both(known, quadratic_signs(parts, depth));
+        known = both(known, root_signs(id, parts, depth));
+    }
+    for (const auto& [id, parts] : groups)
+        if (!settled(known) && parts.size() == 2) known = both(known, group_signs(id, parts, depth));
+    return known;
+}
+
+/// sum_k P_k g^k by the signs of the parts.
+Signs Ring::group_signs(GeneratorId id, const std::map<unsigned, Polynomial>& parts, int depth)
+{
+    const Signs base = signs_of(generators_[id].range);
+    Signs sum{false, true, false};
+    for (const auto& [exponent, part] : parts) {
+        const Signs power = exponent == 0 ? Signs{false, false, true} : proof::power(base, exponent);
+        sum = sum + signs(part, depth + 1) * power;
+        if (sum.negative && sum.positive) return {};
+    }
+    return sum;
+}
+
+/// p = A g^2 + B g + C: 4 A p = (2 A g + B)^2 + (4 A C - B^2).
+Signs Ring::quadratic_signs(const std::map<unsigned, Polynomial>& parts, int depth)
+{
+    const auto part = [&parts](unsigned exponent) {
+        const auto at = parts.find(exponent);
+        return at == parts.end() ? Polynomial() : at->second;
+    };
+    const Polynomial A = part(2), B = part(1), C = part(0);
+    const Signs leading = signs(A, depth + 1);
+    if (leading.negative && leading.positive) return {};
+    const Polynomial product = scale(times(A, C), 4);
+    const Signs gap = signs(add_scaled(product, times(B, B), -1, work_), depth + 1);
+    if (gap.negative) return {};
+    // 4 A C > B^2 says that A is not 0; 4 A C >= B^2 alone needs A != 0.
+    if (gap.zero && leading.zero) return {};
+    const Signs upward{false, gap.zero, true};
+    return leading.negative ? -upward : upward;
+}
+
+/// p = A + B w^k where w >= 0 is a root, w^q = r. For even q = 2 k and A, B of opposite signs, p (A - B w^k) = A^2 -
+/// B^2 r; for odd q the power q is monotone, sign p = sign(A^q + B^q r^k).
+Signs Ring::root_signs(GeneratorId id, const std::map<unsigned, Polynomial>& parts, int depth)
+{
+    const Generator generator = generators_[id];
+    if (parts.size() != 2 || parts.begin()->first != 0) return {};
+    if (generator.power < 2 || generator.power > 6 || generator.is_sine) return {};
+    const auto& [k, B] = *parts.rbegin();
+    const Polynomial& A = parts.begin()->second;
+    if (generator.power % 2 != 0) {
+        const Polynomial image = times(power(B, generator.power), power(generator.relation, k));
+        return signs(add_scaled(power(A, generator.power), image, 1, work_), depth + 1);
+    }
+    if (2 * k != generator.power || generator.range.low.infinite || sgn(generator.range.low.value) < 0) return {};
+    const Signs a = signs(A, depth + 1), b = signs(B, depth + 1);
+    const bool falling = !a.negative && !b.positive, rising = !a.positive && !b.negative;
+    if (!falling && !rising) return {};
+    const Polynomial image = times(power(B, 2), generator.relation);
+    const Signs norm = signs(add_scaled(power(A, 2), image, -1, work_), depth + 1);
+    return falling ? norm : -norm;
+}
+
+/// c E_1 - c E_2 for products E of exponentials and common factors: the sign of the difference of the exponents.
+Signs Ring::exponential_signs(const Polynomial& p, int depth)
+{
+    if (p.size() != 2 || p[0].coefficient + p[1].coefficient != 0) return {};
+    Polynomial sum[2];
+    mpz_class scale_of[2] = {1, 1};
+    for (int j = 0; j < 2; ++j) {
+        const Monomial& monomial = p[static_cast<std::size_t>(j)].monomial;
+        for (std::size_t k = 0; k < monomial.size(); ++k) {
+            const auto at = exponents_.find(monomial.generator(k));
+            if (at == exponents_.end()) return {};
+            const Polynomial& exponent = at->second.first;
+            const mpz_class& below = at->second.second;
+            sum[j] = add_scaled(proof::scale(sum[j], below), exponent, scale_of[j] * monomial.exponent(k), work_);
+            scale_of[j] *= below;
+        }
+    }
+    const Polynomial difference = add_scaled(proof::scale(sum[0], scale_of[1]), sum[1], -scale_of[0], work_);
+    const Signs order = signs(difference, depth + 1);
+    return p[0].coefficient > 0 ? order : -order;
+}
+
+/// True where the image of one of the shifts leads from `from` to `to`.
+bool Ring::leads_to(const Polynomial& from, GeneratorId to) const
+{
+    std::vector<GeneratorId> open;
+    std::set<GeneratorId> seen;
+    const auto visit = [&](const Polynomial& p) {
+        for (const Term& term : p)
+            for (std::size_t k = 0; k < term.monomial.size(); ++k)
+                if (seen.insert(term.monomial.generator(k)).second) open.push_back(term.monomial.generator(k));
+    };
+    visit(from);
+    while (!open.empty()) {
+        const GeneratorId id = open.back();
+        open.pop_back();
+        if (id == to) return true;
+        for (const Shift& shift : shifts_)
+            if (shift.variable == id) visit(shift.image);
+    }
+    return false;
+}
+
+/// v = (excess - rest)/c from the fact c v + rest > 0.
+void Ring::add_shift(const SignFact& fact, bool upward)
+{
+    for (std::size_t k = 0; k < fact.polynomial.size(); ++k) {
+        const Term term = fact.polynomial[k];
+        if (term.monomial.size() != 1 || term.monomial.exponent(0) != 1 || (term.coefficient > 0) != upward) continue;
+        const GeneratorId variable = term.monomial.generator(0);
+        const Generator generator = generators_[variable];
+        const bool taken =
+            std::any_of(shifts_.begin(), shifts_.end(), [&](const Shift& shift) { return shift.variable == variable; });
+        if (generator.power > 0 || generator.value || exponents_.count(variable) > 0 || generator.partner >= 0 || taken)
+            continue;
+        Polynomial rest = fact.polynomial;
+        rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(k));
+        if (leads_to(rest, variable)) continue;
+        const Range range = fact.signs.zero ? Range::nonnegative() : Range::positive();
+        const GeneratorId excess = add_generator({"(excess...)", range, 0, {}, -1, false});
+        Polynomial image = add_scaled(generator_polynomial(excess), rest, -1, work_);
+        if (!upward) image = proof::negate(std::move(image));
+        shifts_.push_back({variable, std::move(image), abs(term.coefficient)});
+        return;
+    }
+}
+
+/// Each inequality of two terms or more measures one variable from its bound; lower bounds first.
+void Ring::make_shifts()
+{
+    shifts_.clear();
+    shifted_facts_ = facts_.size();
+    for (const bool upward : {true, false})
+        for (std::size_t k = 0; k < shifted_facts_; ++k) {
+            SignFact fact = facts_[k];
+            if (!fact.signs.positive) fact = {proof::negate(fact.polynomial), -fact.signs};
+            if (!fact.signs.negative && fact.polynomial.size() > 1 && fact.polynomial.size() <= longest_shift)
+                add_shift(fact, upward);
+        }
+}
+
+/// Puts the image of one shift into p, times a positive number.
+Polynomial Ring::shifted(const Polynomial& p, const Shift& shift)
+{
+    unsigned degree = 0;
+    for (const Term& term : p) degree = std::max(degree, term.monomial.exponent_of(shift.variable));
+    if (degree == 0) return p;
+    Polynomial sum;
+    for (const Term& term : p) {
+        const unsigned exponent = term.monomial.exponent_of(shift.variable);
+        mpz_class factor;
+        mpz_pow_ui(factor.get_mpz_t(), shift.scale.get_mpz_t(), degree - exponent);
+        const Polynomial image = multiply_term(power(shift.image, exponent), term.monomial.without(shift.variable),
+                                               term.coefficient * factor, work_);
+        sum = add_scaled(sum, image, 1, work_);
+    }
+    return reduce(sum);
+}
+
+Signs Ring::shifted_signs(const Polynomial& p, int depth)
+{
+    if (shifted_facts_ != facts_.size()) make_shifts();
+    if (shifts_.empty()) return {};
+    for (const Term& term : p)
+        for (std::size_t k = 0; k < term.monomial.size(); ++k)
+            if (term.monomial.exponent(k) > highest_shift) return {};
+    // Images may contain variables with shifts of their own; there is no cycle, so that as many rounds suffice.
+    Polynomial image = p;
+    for (std::size_t round = 0; round < shifts_.size(); ++round) {
+        const Polynomial before_round = image;
+        for (const Shift& shift : shifts_)
+            if (image.size() <= most_groups) image = shifted(image, shift);
+        if (equal(image, before_round)) break;
+    }
+    return signs(image, depth + 1);
 }
 
 } // namespace lagen::proof

@@ -7,7 +7,8 @@
 /// with the box around a point, the functions have continuous derivatives there. [Clarke 1983]
 #pragma once
 
-#include "proof/interval_newton.hpp"
+#include "proof/ball_matrix.hpp"
+#include "proof/enclosure.hpp"
 
 namespace lagen::proof {
 
@@ -34,5 +35,13 @@ class SlopedFunctions {
     std::vector<std::size_t> places_;      ///< by node: in `nodes_`
     std::optional<Evaluation> values_;
 };
+
+// Which term of some functions has no derivatives at a point, or none that are seen to be continuous there.
+
+/// The first one behind sums, signs, numbers and linear systems whose value and slopes by `z`
+/// (proof/sloped_functions.hpp) do not shrink with the box around `at`; nothing where all do. `exactly`: the point is
+/// these numbers, and not only near them.
+[[nodiscard]] std::optional<NodeId> rough_term(Graph& graph, const std::vector<NodeId>& functions,
+                                               const std::vector<NodeId>& z, const std::vector<Ball>& at, bool exactly);
 
 } // namespace lagen::proof

@@ -86,11 +86,11 @@ GiNaC::ex solve_explicitly(const std::vector<GiNaC::ex>& a, std::size_t k)
                                " coupled linear equations is not written out: a formula that a person could read "
                                "exists up to " +
                                std::to_string(largest_order));
-    std::vector<GiNaC::ex> matrix(a.begin(), a.begin() + static_cast<std::ptrdiff_t>(n * n));
+    const std::vector<GiNaC::ex> matrix(a.begin(), a.begin() + static_cast<std::ptrdiff_t>(n * n));
     const GiNaC::ex whole = determinant(GinacRing{matrix, n}, n);
     if (whole.is_zero()) throw MathematicsError("the matrix of a linear system has no inverse: its determinant is 0");
-    for (std::size_t i = 0; i < n; ++i) matrix[i * n + k] = a[n * n + i];
-    return determinant(GinacRing{matrix, n}, n) / whole;
+    const std::vector<GiNaC::ex> b(a.end() - static_cast<std::ptrdiff_t>(n), a.end());
+    return numerator(GinacRing{matrix, n}, k, b) / whole;
 }
 
 class ToGinac {

@@ -2,13 +2,13 @@
 #include "verify/arrow_decider.hpp"
 
 #include "graph/calculus/differentiate.hpp"
-#include "verify/group_chart.hpp"
-#include "verify/witness_point.hpp"
+#include "groupoid/cayley.hpp"
+#include "groupoid/generator_span.hpp"
+#include "verify/judge.hpp"
 
 #include <algorithm>
 
 namespace lagen {
-
 namespace {
 
 void append(std::vector<NodeId>& list, const std::vector<NodeId>& more)
@@ -117,6 +117,20 @@ Decision decide_on_arrows(Graph& graph, const System& system, NodeId residual, c
         elements.push_back(groupoid.arrow.W);
     }
     return ArrowDecider(graph, setting, groupoid, elements, budget).decide(residual);
+}
+
+bool has_chart(const Groupoid& groupoid)
+{
+    return groupoid.has_cayley_map && groupoid.size <= most_chart_rows;
+}
+
+GroupChart group_chart(Graph& graph, const Groupoid& groupoid, const std::vector<NodeId>& W, const std::string& name)
+{
+    GroupChart chart;
+    for (std::size_t c = 0; c < groupoid.generators.size(); ++c)
+        chart.s.push_back(graph.input(name + "(" + std::to_string(c + 1) + ")"));
+    chart.element = replacements(W, cayley(graph, GeneratorSpan(graph, groupoid).matrix(chart.s), groupoid.size));
+    return chart;
 }
 
 } // namespace lagen

@@ -37,7 +37,7 @@ class AugmentedEnergy {
     /// dH/dz^k, or dF_i/dz^k.
     [[nodiscard]] NodeId slope_node(std::optional<std::size_t> i, std::size_t k) const;
 
-    /// Whether the flow of F_i may move z^k at some point.
+    /// True where the flow of F_i may move z^k at some point.
     [[nodiscard]] bool moves(std::size_t i, std::size_t k) const { return functions_[i + 1].moves[k]; }
 
     /// H, then the F.

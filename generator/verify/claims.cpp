@@ -5,10 +5,10 @@
 #include "expression/find_part.hpp"
 #include "graph/core/lower.hpp"
 #include "verify/discrete_regularity.hpp"
+#include "verify/judge.hpp"
 #include "verify/legendre_obstacle.hpp"
 #include "verify/proof_setting.hpp"
 #include "verify/regularity.hpp"
-#include "verify/witness_point.hpp"
 
 #include <algorithm>
 #include <functional>

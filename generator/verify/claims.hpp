@@ -42,7 +42,7 @@ class Claims {
 
   private:
     void decide_along_motions(Report& report, const std::vector<NamedTree>& claims);
-    /// Whether there are motions in continuous time, whose equations claims are about.
+    /// True where there are motions in continuous time, whose equations claims are about.
     [[nodiscard]] bool has_motions() const { return lagrangian_ || system_.hamiltonian || system_.control; }
     void decide_along_steps(Report& report, const std::vector<NamedTree>& claims);
     [[nodiscard]] std::unique_ptr<EquationsOfMotion> equations_of_motion();

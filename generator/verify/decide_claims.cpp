@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The claims of a model, one kind after another, with names for people.
 #include "graph/calculus/differentiate.hpp"
+#include "mechanics/discrete.hpp"
+#include "mechanics/hamilton_jacobi.hpp"
+#include "mechanics/symmetry.hpp"
 #include "proof/partial_parts.hpp"
 #include "text/activity.hpp"
+#include "verify/arrow_decider.hpp"
 #include "verify/claims.hpp"
 #include "verify/construction.hpp"
 #include "verify/control_maximum.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <iterator>
 
 namespace lagen {
-
 namespace {
 
 /// rho_a(f) of a constraint or a Casimir.
@@ -138,7 +144,7 @@ void Claims::decide_invariants(Report& report, const std::vector<NamedTree>& ext
     if (steps) decide_along_steps(report, claims);
 }
 
-/// Whether a motion goes through each point of E: W ydot = f can be solved there, k^a f_a = 0 where k^a W_ab = 0.
+/// True where a motion goes through each point of E: W ydot = f can be solved there, k^a f_a = 0 where k^a W_ab = 0.
 bool Claims::motions_fill(const Regularity& regularity)
 {
     if (!lagrangian_ || regularity.of != Regularity::Matrix::lagrangian ||
@@ -230,6 +236,149 @@ void Claims::decide_legendre(StructureReport& structure)
     if (check.decision.status == ProofStatus::refuted)
         check.hint = "H is y^a dL/dy^a - L at mu_a = dL/dy^a; leave [hamiltonian] out, and it is found from L";
     structure.checks.push_back(std::move(check));
+}
+
+// Sections that are claimed to be symmetries: of L, else of H, and of a discrete L that is written out. (That of a
+// scheme is as symmetric as its curves; a run measures what it keeps.)
+
+void Claims::decide_symmetries(StructureReport& structure)
+{
+    if (system_.symmetries.empty()) return;
+    const auto append = [&](Check check, const char* hint) {
+        if (check.decision.status == ProofStatus::refuted) check.hint = hint;
+        structure.checks.push_back(std::move(check));
+    };
+    const char* const rate = "the residual is the rate of the momentum p_a s^a along motions without forces";
+    WhereConstant where = along_anchor();
+    for (const SymmetryClaim& claim : system_.symmetries) {
+        if (lagrangian_ || system_.hamiltonian) {
+            const NodeId change = lagrangian_ ? lift_of_lagrangian(graph_, system_, *lagrangian_, claim.s)
+                                              : lift_of_hamiltonian(graph_, system_, claim.s);
+            Check check{"symmetry", {claim.name}, judge_->decide(change)};
+            const NodeId momentum = contraction(graph_, lagrangian_ ? lagrangian_->fibre.momenta : system_.mu, claim.s);
+            if (check.decision.status == ProofStatus::proved)
+                if (WhereConstant::Conditions found = where.of({momentum}); found.obstacle.empty())
+                    check.where = std::move(found.texts);
+            append(std::move(check), rate);
+        }
+        if (!system_.discrete || !system_.discrete->written) continue;
+        const NodeId residual = lift_of_discrete_lagrangian(graph_, system_, claim.s);
+        Check steps{"symmetry", {claim.name}, decide_on_arrows(graph_, system_, residual, judge_->decider().budget())};
+        if (lagrangian_ || system_.hamiltonian) steps.indices.emplace_back("discrete");
+        steps.meaning = "the derivative of the discrete Lagrangian along the complete lift of " + claim.name;
+        append(std::move(steps), "the residual is the change of the momentum p_a s^a over a step without forces");
+    }
+}
+
+// Claims about what the steps of a discrete Lagrangian keep: f(t + h, t(g), F^+L(g)) = f(t, s(g), F^-L(g)) for every
+// arrow g.
+
+namespace {
+
+/// Names of f that neither points nor momenta have: velocities, functions of the arrow.
+std::string foreign_name(const System& system, const Tree& f)
+{
+    const auto is_one_of = [&](const std::vector<NodeId>& inputs, const std::string& name) {
+        return std::ranges::any_of(inputs, [&](NodeId node) { return system.graph.input_name(node) == name; });
+    };
+    for (const std::string& name : names_in(f))
+        if (!is_one_of(system.algebroid.x, name) && !is_one_of(system.mu, name) &&
+            !is_one_of(system.parameters, name) && !is_one_of({system.time, system.discrete->step}, name))
+            return name;
+    return {};
+}
+
+} // namespace
+
+void Claims::decide_along_steps(Report& report, const std::vector<NamedTree>& claims)
+{
+    if (claims.empty() || !system_.discrete->lagrangian) return;
+    const Groupoid& groupoid = *system_.groupoid;
+    const DiscreteLegendre legendre = discrete_legendre(graph_, groupoid, *system_.discrete->lagrangian);
+    Replacements before = replacements(system_.mu, legendre.minus), behind = replacements(system_.mu, legendre.plus);
+    for (const auto& moved : replacements(system_.algebroid.x, target(graph_, groupoid, groupoid.arrow)))
+        behind.push_back(moved);
+    behind.emplace_back(system_.time, graph_.add(system_.time, system_.discrete->step));
+    const bool everywhere = report.mechanics.discrete.kind != Regularity::Kind::degenerate;
+    Lowering lower(graph_);
+    for (const NamedTree& claim : claims) {
+        Check check{"invariant", {claim.name}, {}};
+        check.meaning = fmt::format("the change of {} over a step", claim.name);
+        if (has_motions()) check.indices.emplace_back("discrete");
+        if (const std::string name = foreign_name(system_, claim.value); !name.empty()) {
+            if (has_motions()) continue; // a claim about those alone
+            check.decision.evidence = fmt::format("'{}' is no function of the points and momenta of a step", name);
+        } else {
+            const NodeId f = lower(claim.value);
+            const NodeId only[] = {f};
+            const NodeId residual =
+                graph_.subtract(substitute(graph_, only, behind)[0], substitute(graph_, only, before)[0]);
+            check.decision = decide_on_arrows(graph_, system_, residual, judge_->decider().budget());
+            if (check.decision.status == ProofStatus::refuted && !everywhere) {
+                check.decision = Decision{};
+                check.decision.evidence = "not every arrow keeps it, but the discrete Lagrangian is degenerate and its "
+                                          "motions may pass through a part of the arrows alone";
+            }
+        }
+        if (has_motions() && check.decision.status == ProofStatus::refuted)
+            check.hint =
+                "the steps of the discrete Lagrangian do not keep it, whatever the motions of L or H do; a claim "
+                "that is written with velocities is about those alone";
+        report.structure.checks.push_back(std::move(check));
+    }
+}
+
+// Says whether the candidate of [hamilton_jacobi] is closed and solves Hamilton and Jacobi's equation.
+
+void Claims::decide_hamilton_jacobi(StructureReport& structure, const Regularity& regularity)
+{
+    if (!system_.hamilton_jacobi) return;
+    HamiltonJacobiReport& report = structure.hamilton_jacobi.emplace();
+    const bool degenerate = !system_.hamiltonian && regularity.kind == Regularity::Kind::degenerate;
+    std::optional<HamiltonianNodes> hamiltonian;
+    if (!degenerate) hamiltonian = closed_hamiltonian(graph_, system_, regularity.newton_start);
+    if (!hamiltonian) {
+        Decision open;
+        open.evidence = degenerate ? "the Lagrangian is degenerate: there is no H on E*"
+                                   : "the velocities are no closed function of the momenta; [hamiltonian] H gives one";
+        structure.checks.push_back({"hamilton_jacobi", {}, std::move(open)});
+        return;
+    }
+    const HamiltonJacobiNodes nodes = hamilton_jacobi(graph_, system_, *hamiltonian, system_.hamilton_jacobi->alpha);
+    ProofSetting setting = setting_;
+    for (const std::vector<NodeId>* list : {&system_.hamilton_jacobi->alpha, &system_.hamilton_jacobi->parts})
+        for (const NodeId node : *list)
+            if (!graph_.is_constant(node)) setting.defined.push_back(node);
+    Judge judge(graph_, setting, judge_->decider().budget());
+    const auto name_of = [&](std::size_t a) { return graph_.input_name(system_.algebroid.y[a]); };
+    std::vector<Check> checks;
+    const auto append = [&](const char* name, std::vector<std::string> indices, NodeId value, ProofStatus& status) {
+        if (graph_.is_zero(value)) {
+            ++structure.trivial;
+            return;
+        }
+        Check check{name, std::move(indices), judge.decide(value)};
+        status = both(status, check.decision.status);
+        checks.push_back(std::move(check));
+    };
+    // Where nothing has terms there may still be no point at which the candidate is defined.
+    const ProofStatus defined = judge.decide(graph_.constant(0)).status;
+    report = {defined, defined, defined, std::nullopt};
+    for (const auto& [index, value] : nodes.closed.components)
+        append("closed", {"alpha", name_of(index[0]), name_of(index[1])}, value, report.closed);
+    for (std::size_t b = 0; b < nodes.equation.size(); ++b)
+        append("hamilton_jacobi", {name_of(b)}, nodes.equation[b], report.equation);
+    for (const NodeId value : nodes.lift)
+        if (!graph_.is_zero(value)) report.lifts = both(report.lifts, judge.decide(value).status);
+    if (nodes.action) report.action = both(defined, judge.decide(*nodes.action).status);
+    WhereConstant where = along_anchor();
+    std::vector<NodeId> functions = system_.hamilton_jacobi->alpha;
+    functions.insert(functions.end(), system_.hamilton_jacobi->parts.begin(), system_.hamilton_jacobi->parts.end());
+    if (where.of(functions).obstacle.empty()) // what is proved is proved of each point where alpha is defined
+        say_where(where, functions, checks, {"hamilton_jacobi", {}, {}});
+    std::ranges::move(checks, std::back_inserter(structure.checks));
+    if (defined != ProofStatus::proved)
+        structure.checks.push_back({"hamilton_jacobi", {}, judge.decide(graph_.constant(0))});
 }
 
 } // namespace lagen

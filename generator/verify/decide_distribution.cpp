@@ -2,11 +2,11 @@
 /// What `check` says of a nonholonomic system: that its sections are independent and satisfy the constraints beside
 /// them; outside the verdict whether their brackets stay in the distribution, and which energy is conserved.
 #include "graph/calculus/differentiate.hpp"
+#include "proof/rank.hpp"
 #include "verify/claims.hpp"
 #include "verify/distribution_rows.hpp"
-#include "verify/fibre_rank.hpp"
+#include "verify/judge.hpp"
 #include "verify/singular_set.hpp"
-#include "verify/witness_point.hpp"
 
 #include <fmt/format.h>
 
@@ -22,11 +22,7 @@ void Claims::decide_constraints(StructureReport& structure)
     const std::size_t k = distribution.sections.size(), r = system_.r();
     if (distribution.is_solved || distribution.constraints.empty()) return;
     const auto append = [&](std::vector<std::string> indices, NodeId residual) {
-        if (graph_.is_zero(residual)) {
-            ++structure.trivial;
-            return;
-        }
-        structure.checks.push_back({"constraint", std::move(indices), judge_->decide(residual)});
+        structure.append(graph_, "constraint", std::move(indices), residual, *judge_);
     };
     const std::vector<NodeId> B = constraint_rows(graph_, system_);
     for (std::size_t A = 0; A < distribution.constraints.size(); ++A) {
@@ -41,7 +37,7 @@ void Claims::decide_constraints(StructureReport& structure)
         const NodeId only[] = {distribution.constraints[A]};
         append({"drift", text}, substitute(graph_, only, replacements(system_.algebroid.y, drift))[0]);
     }
-    const FibreRank rank = fibre_rank(graph_, B, distribution.constraints.size(), r, judge_->decider());
+    const GenericRank rank = generic_rank(graph_, B, distribution.constraints.size(), r, judge_->decider());
     if (rank.rank && *rank.rank == r - k) return;
     Check check{"constraint", {"number"}, {}};
     check.decision.evidence = "the rank of the constraints is not decided";

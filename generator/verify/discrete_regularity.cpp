@@ -4,37 +4,26 @@
 #include "verify/discrete_regularity.hpp"
 
 #include "expression/linear_algebra.hpp"
-#include "graph/calculus/determinant.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/evaluate.hpp"
 #include "mechanics/discrete.hpp"
 #include "proof/almost_everywhere.hpp"
 #include "verify/arrow_decider.hpp"
-#include "verify/at_values.hpp"
 #include "verify/definiteness.hpp"
-#include "verify/group_chart.hpp"
-#include "verify/kernel_vectors.hpp"
-#include "verify/pivoted_minor.hpp"
-#include "verify/reduced_fraction.hpp"
+#include "verify/proof_setting.hpp"
+#include "verify/regularity.hpp"
 #include "verify/singular_set.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace lagen {
 namespace {
 
-using Places = std::vector<std::size_t>;
-
 constexpr ProofBudget decision_budget{.terms = 2000, .products = 100'000};
 
-/// N over the coordinates of arrows, and what holds of these.
-struct Chart {
-    std::vector<NodeId> N; ///< by rows
-    ProofSetting setting;
-    std::unique_ptr<ZeroDecider> decider;
-};
+/// N by rows over the coordinates of arrows, and what holds of these.
+using Chart = AtValues;
 
 class DiscreteRegularity {
   public:
@@ -70,9 +59,9 @@ class DiscreteRegularity {
         arrows_ = on_arrows();
         const std::optional<NamedPoint> point = arrows_.decider->sample_point();
         if (point) numbers_ = numbers_at(*point);
-        const std::optional<PivotedMinor> minor = point ? guess_minor(numbers_, m_, system_.r()) : std::nullopt;
+        const std::optional<Minor> minor = point ? guess_minor(numbers_, m_, system_.r()) : std::nullopt;
         if (!minor ||
-            arrows_.decider->status(product_of_pivots(graph_, arrows_.N, m_, *minor)) != ProofStatus::refuted) {
+            arrows_.decider->status(product_of_pivots(graph_, arrows_.nodes, m_, *minor)) != ProofStatus::refuted) {
             result.evidence = "no arrow was found at which the rank of N is certain";
             return result;
         }
@@ -130,7 +119,7 @@ class DiscreteRegularity {
         else if (!W.empty())
             group = group_chart(graph_, *system_.groupoid, W, "s");
         s_ = group.s;
-        Chart chart{substitute(graph_, matrices_.N, group.element), setting_over(s_), nullptr};
+        Chart chart{substitute(graph_, matrices_.nodes, group.element), setting_over(s_), nullptr};
         if (const auto& logarithm = system_.discrete->logarithm)
             s_.assign(system_.discrete->inner.begin(),
                       system_.discrete->inner.begin() + static_cast<std::ptrdiff_t>(logarithm->conditions.size()));
@@ -144,12 +133,7 @@ class DiscreteRegularity {
     /// The same for the parameter values of the file.
     [[nodiscard]] std::optional<Chart> at_file_values(const Chart& chart)
     {
-        const auto N = substitute_where_defined(graph_, chart.N, values_);
-        auto setting = replaced(graph_, chart.setting, values_);
-        if (!N || !setting) return {};
-        Chart there{*N, std::move(*setting), nullptr};
-        there.decider = ZeroDecider::make(graph_, there.setting, budget_);
-        return there.decider ? std::optional(std::move(there)) : std::nullopt;
+        return at_values(graph_, chart.nodes, chart.setting, budget_, values_);
     }
 
     /// Of N over the arrows; entries that vanish are 0 where the point and N are rational.
@@ -162,12 +146,13 @@ class DiscreteRegularity {
             if (value.exact) fractions.emplace(name, *value.exact);
         }
         if (fractions.size() == point.size())
-            if (const std::vector<Rational> exact = evaluate_exactly(graph_, arrows_.N, fractions); !exact.empty()) {
+            if (const std::vector<Rational> exact = evaluate_exactly(graph_, arrows_.nodes, fractions);
+                !exact.empty()) {
                 std::vector<long double> numbers;
                 for (const Rational& entry : exact) numbers.push_back(entry.get_d());
                 return numbers;
             }
-        return evaluate<long double>(graph_, arrows_.N, values);
+        return evaluate<long double>(graph_, arrows_.nodes, values);
     }
 
     /// One a block; none where a block is too large.
@@ -176,7 +161,7 @@ class DiscreteRegularity {
         std::vector<NodeId> determinants;
         for (const Places& block : blocks_) {
             if (block.size() > determinant_limit) return {};
-            determinants.push_back(determinant_of(graph_, chart.N, m_, block, block));
+            determinants.push_back(determinant_of(graph_, chart.nodes, m_, block, block));
         }
         return determinants;
     }
@@ -192,7 +177,7 @@ class DiscreteRegularity {
     /// the chart misses, but for one that is the same at all elements.
     [[nodiscard]] bool is_regular_everywhere(const Chart& matrices, const Chart& arrows)
     {
-        if (!numbers_of(graph_, arrows.N).empty()) return true;
+        if (!numbers_of(graph_, arrows.nodes).empty()) return true;
         const std::vector<NodeId> free = determinants_on(matrices), charted = determinants_on(arrows);
         for (std::size_t k = 0; k < free.size(); ++k)
             if (!matrices.decider->proves_nonzero(free[k]) &&
@@ -222,7 +207,7 @@ class DiscreteRegularity {
 
     [[nodiscard]] bool is_regular_almost_everywhere()
     {
-        if (are_analytic(graph_, arrows_.N, arrows_.setting, *arrows_.decider)) return true;
+        if (are_analytic(graph_, arrows_.nodes, arrows_.setting, *arrows_.decider)) return true;
         const std::vector<NodeId> determinants = determinants_on(arrows_);
         return !determinants.empty() && std::ranges::all_of(determinants, [&](NodeId determinant) {
             return is_nonzero_almost_everywhere(graph_, determinant, arrows_.setting, *arrows_.decider);
@@ -252,7 +237,7 @@ class DiscreteRegularity {
 
     /// k with N k = 0 for a column j outside of a minor, k^j = 1, N_PQ k^Q = -N_Pj, if it has small fractions as
     /// entries at the point where the minor was found.
-    [[nodiscard]] std::vector<NodeId> constant_entries(const PivotedMinor& minor, std::size_t j)
+    [[nodiscard]] std::vector<NodeId> constant_entries(const Minor& minor, std::size_t j)
     {
         std::vector<long double> matrix, right;
         for (const std::size_t p : minor.rows) {
@@ -271,8 +256,9 @@ class DiscreteRegularity {
         return k;
     }
 
-    /// The same by Cramer's rule, with P and Q in the block of j. Nothing where that is too large.
-    [[nodiscard]] std::vector<NodeId> kernel_entries(const Chart& chart, const PivotedMinor& minor, std::size_t j)
+    /// The same by Cramer's rule, with the part of the minor in the block of j. Nothing where that is
+    /// too large.
+    [[nodiscard]] std::vector<NodeId> kernel_vector(const Chart& chart, const Minor& minor, std::size_t j)
     {
         const Places& block = *std::ranges::find_if(
             blocks_, [&](const Places& each) { return std::ranges::find(each, j) != each.end(); });
@@ -280,58 +266,39 @@ class DiscreteRegularity {
             std::erase_if(places, [&](std::size_t k) { return std::ranges::find(block, k) == block.end(); });
             return places;
         };
-        const Places rows = within(minor.rows), columns = within(minor.columns);
-        if (rows.size() != columns.size() || rows.size() > determinant_limit) return {};
-        std::vector<NodeId> k(m_, graph_.constant(0));
-        k[j] = graph_.constant(1);
-        if (rows.empty()) return k;
-        const NodeId determinant = determinant_of(graph_, chart.N, m_, rows, columns);
-        for (const std::size_t q : columns) {
-            std::vector<NodeId> replaced = chart.N;
-            for (const std::size_t p : rows) replaced[p * m_ + q] = graph_.negate(chart.N[p * m_ + j]);
-            k[q] = graph_.divide(determinant_of(graph_, replaced, m_, rows, columns), determinant);
-        }
-        return k;
-    }
-
-    [[nodiscard]] bool is_in_kernel(const Chart& chart, const std::vector<NodeId>& k)
-    {
-        for (std::size_t a = 0; a < m_; ++a) {
-            if (k.empty()) return false;
-            std::vector<NodeId> terms;
-            for (std::size_t b = 0; b < m_; ++b) terms.push_back(graph_.multiply(chart.N[a * m_ + b], k[b]));
-            if (chart.decider->status(graph_.sum(terms)) != ProofStatus::proved) return false;
-        }
-        return true;
+        const Minor part{within(minor.rows), within(minor.columns)};
+        if (part.rows.size() != part.columns.size() || part.rows.size() > determinant_limit) return {};
+        return FunctionMatrix(graph_, chart.nodes, m_, m_).kernel_vector(part, j);
     }
 
     /// One vector a column outside of the minor; nothing where one is not proved to be in the kernel.
-    [[nodiscard]] std::optional<std::vector<std::vector<NodeId>>> kernel_on(const Chart& chart,
-                                                                            const PivotedMinor& minor)
+    [[nodiscard]] std::optional<std::vector<std::vector<NodeId>>> kernel_on(const Chart& chart, const Minor& minor)
     {
         std::vector<std::vector<NodeId>> vectors;
         for (std::size_t j = 0; j < m_; ++j) {
             if (std::ranges::find(minor.columns, j) != minor.columns.end()) continue;
+            const FunctionMatrix N(graph_, chart.nodes, m_, m_);
+            const auto is_in_kernel = [&](const std::vector<NodeId>& k) {
+                return !k.empty() && N.maps_to_zero(k, *chart.decider);
+            };
             std::vector<NodeId> k = constant_entries(minor, j);
-            if (!is_in_kernel(chart, k)) k = kernel_entries(chart, minor, j);
-            if (!is_in_kernel(chart, k)) return {};
+            if (!is_in_kernel(k)) k = kernel_vector(chart, minor, j);
+            if (!is_in_kernel(k)) return {};
             vectors.push_back(std::move(k));
         }
         return vectors;
     }
 
-    void describe_kernel(Regularity& result, const PivotedMinor& minor)
+    void describe_kernel(Regularity& result, const Minor& minor)
     {
         for (const Chart* chart : {&matrices_, &arrows_}) {
             const auto vectors = kernel_on(*chart, minor);
             if (!vectors) continue;
             result.kind = Regularity::Kind::degenerate;
             if (chart == &arrows_) name_chart(result);
-            Places all(m_);
-            std::iota(all.begin(), all.end(), 0);
             const Order order = writing_order(graph_, chart->setting);
             for (const std::vector<NodeId>& k : *vectors) {
-                const auto vector = readable_vector(graph_, all, k, order, *chart->decider);
+                const auto vector = readable_vector(graph_, first_places(m_), k, order, *chart->decider);
                 if (!vector) continue;
                 auto& named = result.kernel.emplace_back();
                 for (const auto& [a, text] : *vector) named.emplace_back(names_[a], text);

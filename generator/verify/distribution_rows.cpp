@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/distribution_rows.hpp"
 
-#include "graph/calculus/determinant.hpp"
 #include "graph/calculus/differentiate.hpp"
-#include "graph/calculus/places.hpp"
 #include "graph/core/lower.hpp"
-#include "verify/reduced_fraction.hpp"
+#include "proof/rank.hpp"
 #include "verify/singular_set.hpp"
 
 #include <fmt/format.h>
@@ -19,75 +17,27 @@ namespace {
 
 constexpr std::size_t most_minors = 200;
 
-/// A matrix with the minors that are asked of it.
-struct Rows {
-    Graph& graph;
-    const std::vector<NodeId>& entries;
-    std::size_t width;
-
-    [[nodiscard]] NodeId minor(const Places& rows, const Places& columns) const
-    {
-        return rows.empty() ? graph.constant(1) : determinant_of(graph, entries, width, rows, columns);
-    }
-};
-
-/// Rows and columns of a minor that is certainly not zero somewhere and that none larger contains; nothing where one is
-/// not decided. Of the columns of a row `everywhere` prefers one whose minor vanishes nowhere.
-std::optional<std::pair<Places, Places>> largest_minor(const Rows& matrix, std::size_t rows, const ZeroDecider& decider,
-                                                       bool everywhere = false)
+/// sum_k coefficients[k] values[k]
+NodeId combination(Graph& graph, const std::vector<NodeId>& coefficients, const std::vector<NodeId>& values)
 {
-    std::pair<Places, Places> found;
-    for (std::size_t row = 0; row < rows; ++row) {
-        std::optional<std::pair<Places, Places>> best;
-        for (std::size_t column = 0; column < matrix.width; ++column) {
-            if (std::ranges::find(found.second, column) != found.second.end()) continue;
-            std::pair<Places, Places> larger = found;
-            larger.first.push_back(row);
-            larger.second.push_back(column);
-            const NodeId minor = matrix.minor(larger.first, larger.second);
-            const ProofStatus zero = decider.status(minor);
-            if (zero == ProofStatus::undecided) return std::nullopt;
-            if (zero == ProofStatus::proved) continue;
-            const bool is_last = !everywhere || decider.proves_nonzero(minor);
-            if (is_last || !best) best = std::move(larger);
-            if (is_last) break;
-        }
-        if (best) found = std::move(*best);
-    }
-    return found;
+    std::vector<NodeId> terms;
+    for (std::size_t k = 0; k < values.size(); ++k) terms.push_back(graph.multiply(coefficients[k], values[k]));
+    return graph.sum(terms);
 }
 
-/// A combination of rows that is zero, sum_k coefficients[k] rows[k].
-struct RowRelation {
-    Places rows;
-    std::vector<NodeId> coefficients;
-
-    [[nodiscard]] NodeId of(Graph& graph, const std::vector<NodeId>& values) const
-    {
-        std::vector<NodeId> terms;
-        for (std::size_t k = 0; k < rows.size(); ++k) terms.push_back(graph.multiply(coefficients[k], values[rows[k]]));
-        return graph.sum(terms);
-    }
-};
-
-/// For each row outside of a largest minor the combination of it and those inside: cofactors of the minor bordered by
-/// it.
-std::vector<RowRelation> relations_of(const Rows& matrix, std::size_t count, const Places& minor_rows,
-                                      const Places& columns)
+/// The combinations of rows that are zero, one for each row outside of a largest minor: a basis of the left kernel.
+std::vector<std::vector<NodeId>> relations_of(Graph& graph, const std::vector<NodeId>& entries, std::size_t rows,
+                                              const Minor& minor)
 {
-    std::vector<RowRelation> relations;
-    for (std::size_t extra = 0; extra < count; ++extra) {
-        if (std::ranges::find(minor_rows, extra) != minor_rows.end()) continue;
-        RowRelation& relation = relations.emplace_back(RowRelation{minor_rows, {}});
-        relation.rows.push_back(extra);
-        for (std::size_t k = 0; k < relation.rows.size(); ++k) {
-            Places others = relation.rows;
-            others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
-            const NodeId cofactor = matrix.minor(others, columns);
-            relation.coefficients.push_back((minor_rows.size() - k) % 2 == 0 ? cofactor
-                                                                             : matrix.graph.negate(cofactor));
-        }
-    }
+    const std::size_t width = entries.size() / rows;
+    std::vector<NodeId> transposed;
+    for (std::size_t column = 0; column < width; ++column)
+        for (std::size_t row = 0; row < rows; ++row) transposed.push_back(entries[row * width + column]);
+    const FunctionMatrix matrix(graph, transposed, width, rows);
+    std::vector<std::vector<NodeId>> relations;
+    for (std::size_t extra = 0; extra < rows; ++extra)
+        if (std::ranges::find(minor.rows, extra) == minor.rows.end())
+            relations.push_back(matrix.kernel_vector({minor.columns, minor.rows}, extra, false));
     return relations;
 }
 
@@ -160,7 +110,7 @@ ReducedMinor reduced_minor(Graph& graph, NodeId minor, const ProofSetting& setti
     return result;
 }
 
-/// Whether these minors have no common zero: the sum of their squares is positive.
+/// True where these minors have no common zero: the sum of their squares is positive.
 bool have_no_common_zero(Graph& graph, const std::vector<ReducedMinor>& minors, const ZeroDecider& decider)
 {
     std::vector<NodeId> squares;
@@ -188,28 +138,31 @@ std::optional<std::vector<std::string>> conditions_of(Graph& graph, std::vector<
 }
 
 /// The minors of all k rows that are not zero everywhere; nothing where there are too many.
-std::optional<std::vector<NodeId>> minors_of(const Rows& matrix, std::size_t k, const ZeroDecider& decider)
+std::optional<std::vector<NodeId>> minors_of(Graph& graph, const std::vector<NodeId>& entries, std::size_t k,
+                                             const ZeroDecider& decider)
 {
     std::vector<NodeId> minors;
+    const std::size_t width = entries.size() / k;
     if (k > determinant_limit) return std::nullopt;
-    if (k > matrix.width) return minors;
+    if (k > width) return minors;
     Places columns = first_places(k);
     std::size_t looked_at = 0;
     do {
         if (++looked_at > most_minors) return std::nullopt;
-        const NodeId minor = matrix.minor(first_places(k), columns);
-        if (!matrix.graph.is_zero(minor) && decider.status(minor) != ProofStatus::proved) minors.push_back(minor);
-    } while (next_places(columns, matrix.width));
+        const NodeId minor = determinant_of(graph, entries, width, first_places(k), columns);
+        if (!graph.is_zero(minor) && decider.status(minor) != ProofStatus::proved) minors.push_back(minor);
+    } while (next_places(columns, width));
     return minors;
 }
 
 /// Of rows all of whose minors are zero: a combination of them that is. Where `values` are given the rows are linear
 /// parts of constraints, and a combination of these may be left that is not zero.
-void describe_dependence(Check& check, const Rows& matrix, Judge& judge, const std::vector<NodeId>& values)
+void describe_dependence(Check& check, Graph& graph, const std::vector<NodeId>& entries, Judge& judge,
+                         const std::vector<NodeId>& values)
 {
-    Graph& graph = matrix.graph;
     const ZeroDecider& decider = judge.decider();
-    const auto minor = largest_minor(matrix, check.indices.size(), decider, true);
+    const std::size_t count = check.indices.size();
+    const auto minor = FunctionMatrix(graph, entries, count, entries.size() / count).largest_minor(decider, true);
     const std::optional<NamedPoint> point = decider.sample_point();
     if (!minor || !point) return;
     std::vector<std::string> rows; // constraints in parentheses
@@ -218,16 +171,16 @@ void describe_dependence(Check& check, const Rows& matrix, Judge& judge, const s
         rows.push_back(row.find(' ') == std::string::npos ? row : "(" + row + ")");
         inputs.push_back(graph.input(rows.back()));
     }
-    const auto text = [&](const RowRelation& relation) {
-        return text_with(graph, judge.setting(), rows, relation.of(graph, inputs), decider.budget());
+    const auto text = [&](const std::vector<NodeId>& relation) {
+        return text_with(graph, judge.setting(), rows, combination(graph, relation, inputs), decider.budget());
     };
-    const std::vector<RowRelation> relations = relations_of(matrix, rows.size(), minor->first, minor->second);
+    const std::vector<std::vector<NodeId>> relations = relations_of(graph, entries, count, *minor);
     check.decision = dependent_at(text(relations.front()), *point);
     check.meaning = values.empty() ? "a combination of these sections that is zero"
                                    : "a combination of these constraints that is zero: one follows from the others";
-    for (const RowRelation& relation : relations) {
+    for (const std::vector<NodeId>& relation : relations) {
         if (values.empty()) break;
-        const Decision value = judge.decide(relation.of(graph, values));
+        const Decision value = judge.decide(combination(graph, relation, values));
         if (value.status == ProofStatus::proved) continue;
         check.decision.residual = text(relation);
         if (value.status == ProofStatus::undecided) {
@@ -252,15 +205,14 @@ Check independence(Graph& graph, const std::vector<NodeId>& entries, std::vector
     const ProofSetting& setting = judge.setting();
     const ZeroDecider& decider = judge.decider();
     const std::size_t k = names.size();
-    const Rows matrix{graph, entries, entries.size() / k};
     Check check{"independent", std::move(names), {}};
-    const auto minors = minors_of(matrix, k, decider);
+    const auto minors = minors_of(graph, entries, k, decider);
     if (!minors) {
         check.decision.evidence = "the minors are more, or larger, than those that are looked at";
         return check;
     }
     if (minors->empty()) {
-        describe_dependence(check, matrix, judge, values);
+        describe_dependence(check, graph, entries, judge, values);
         return check;
     }
     std::vector<ReducedMinor> reduced_minors;
@@ -306,21 +258,16 @@ std::vector<std::vector<NodeId>> annihilators(Graph& graph, const System& system
                            given.begin() + static_cast<std::ptrdiff_t>(first + r));
     if (!forms.empty() || k > determinant_limit) return forms;
     const std::vector<NodeId> A = section_rows(graph, system);
-    const Rows matrix{graph, A, r};
-    const auto minor = largest_minor(matrix, k, decider);
-    if (!minor || minor->first.size() != k) return forms;
+    const FunctionMatrix matrix(graph, A, k, r);
+    auto minor = matrix.largest_minor(decider);
+    if (!minor || minor->rows.size() != k) return forms;
+    std::ranges::sort(minor->columns);
     for (std::size_t extra = 0; extra < r; ++extra) {
-        if (std::ranges::find(minor->second, extra) != minor->second.end()) continue;
-        Places columns = minor->second;
-        columns.push_back(extra);
-        std::ranges::sort(columns);
-        std::vector<NodeId>& form = forms.emplace_back(r, graph.constant(0));
-        for (std::size_t j = 0; j <= k; ++j) {
-            Places others = columns;
-            others.erase(others.begin() + static_cast<std::ptrdiff_t>(j));
-            const NodeId cofactor = matrix.minor(first_places(k), others);
-            form[columns[j]] = j % 2 == 0 ? cofactor : graph.negate(cofactor);
-        }
+        const auto place = std::ranges::lower_bound(minor->columns, extra);
+        if (place != minor->columns.end() && *place == extra) continue;
+        std::vector<NodeId>& form = forms.emplace_back(matrix.kernel_vector(*minor, extra, false));
+        if ((place - minor->columns.begin()) % 2 != 0) // the sign of the minor without the first of its columns
+            for (NodeId& entry : form) entry = graph.negate(entry);
     }
     return forms;
 }

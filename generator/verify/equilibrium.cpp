@@ -5,7 +5,6 @@
 #include "graph/calculus/differentiate.hpp"
 #include "graph/simplify/simplify.hpp"
 #include "proof/least_squares.hpp"
-#include "proof/rough_term.hpp"
 #include "proof/sloped_functions.hpp"
 #include "text/activity.hpp"
 #include "verify/augmented_energy.hpp"

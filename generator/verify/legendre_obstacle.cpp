@@ -7,8 +7,8 @@
 #include "graph/core/lower.hpp"
 #include "graph/core/operators.hpp"
 #include "graph/unknowns/implicit.hpp"
-#include "verify/at_values.hpp"
 #include "verify/definiteness.hpp"
+#include "verify/proof_setting.hpp"
 
 #include <fmt/format.h>
 
@@ -126,7 +126,7 @@ class SmoothSet {
     std::string obstacle_;
 };
 
-/// Whether W does not depend on y: its derivatives are proved to be zero.
+/// True where W does not depend on y: its derivatives are proved to be zero.
 bool is_quadratic(Graph& graph, const FibreHessian& hessian, SmoothSet& smooth)
 {
     std::set<NodeId> seen; // most entries are the same 0
@@ -193,7 +193,7 @@ void decide_legendre_transform(Graph& graph, const FibreHessian& hessian, const 
 {
     Transform transform = transform_of(graph, hessian, setting, budget, regularity);
     const auto succeeds_for = [&](const Replacements& some) {
-        const std::optional<AtValues> there = at_values(graph, hessian, setting, budget, some);
+        const auto there = at_values(graph, hessian, setting, budget, some);
         if (!there || !there->decider->sample_point()) return false;
         Transform here = transform_of(graph, there->hessian, there->setting, budget, regularity);
         const bool succeeds = here.obstacle.empty();

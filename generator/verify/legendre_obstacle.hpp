@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Whether the Legendre transform y -> dL/dy is one-to-one at fixed t, x and parameters. It is where
+/// Says whether the Legendre transform y -> dL/dy is one-to-one at fixed t, x and parameters. It is where
 /// - L is quadratic in y with a regular W (L may be any function of x), or
 /// - L is smooth on a convex set of fibre coordinates and W = d2L/dy2 is definite there: on the segment between two
 ///   points (y_2 - y_1) . (dL/dy(y_2) - dL/dy(y_1)) = int (y_2 - y_1) . W (y_2 - y_1) > 0.

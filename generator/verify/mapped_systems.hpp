@@ -5,6 +5,8 @@
 
 #include "mechanics/velocity_map.hpp"
 #include "verify/arrow_decider.hpp"
+#include "verify/judge.hpp"
+#include "verify/verify.hpp"
 
 namespace lagen {
 
@@ -27,7 +29,7 @@ class MappedSystems {
     [[nodiscard]] const System& from() const { return morphism.source; }
     [[nodiscard]] const System& to() const { return morphism.target; }
 
-    /// Whether no force of either side depends on first-order states, whose own equations are not compared.
+    /// True where no force of either side depends on first-order states, whose own equations are not compared.
     [[nodiscard]] bool compares_forces() const;
     [[nodiscard]] bool is_constrained() const { return from().distribution || to().distribution; }
 
@@ -64,5 +66,14 @@ class MappedSystems {
   private:
     std::vector<NodeId> momenta_;
 };
+
+// Does a map carry the distribution of a nonholonomic system onto that of another? The checks `constraint` of a
+// morphism and of its reduction: Phi(e_alpha) in D', Phi(b) in b' + D', Phi(D) = D'.
+
+struct CarriedDistribution {
+    std::vector<Check> checks; ///< residuals that are 0 by structure are left out
+    bool onto = false;         ///< Phi(D) = D' is proved at every point
+};
+[[nodiscard]] CarriedDistribution decide_carried(MappedSystems& both, Judge& judge);
 
 } // namespace lagen

@@ -171,7 +171,7 @@ class EquilibriumFinder {
         return std::ranges::all_of(coordinates,
                                    [&](NodeId z) { return is_proved_zero(poisson_bracket(graph_, system_at_, f, z)); });
     }
-    /// Whether a whole turn of z changes nothing: not H, not what is conserved, not rho and C.
+    /// True where a whole turn of z changes nothing: not H, not what is conserved, not rho and C.
     [[nodiscard]] bool is_angle(NodeId z)
     {
         std::vector<NodeId> functions = system_at_.algebroid.entries();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Whether a step of a discrete Lagrangian is undone by the step of -h, which compositions of it rest on:
+/// Says whether a step of a discrete Lagrangian is undone by the step of -h, which compositions of it rest on:
 ///   L*(t, g, h) = -L(t + h, g^-1, -h),      F^+-L* = F^+-L,  shown where L - L* is constant on the arrows
 /// and the work of forces likewise, f^+(t, g, h) = -f^-(t + h, g^-1, -h), each with its part along a logarithm. What L*
 /// and L differ by may depend on h and t alone: f(t(g)) - f(s(g)) leaves the discrete Euler-Lagrange equations as they

@@ -71,7 +71,11 @@ struct Regularity {
     }
 };
 
-/// Whether other values of the parameters might be decided otherwise.
+/// What is proved for one value of a parameter alone is taken to hold of others that differ from it by less than one
+/// part in so many: they are the same number, rounded.
+inline constexpr long proved_value_parts = 1'000'000'000'000;
+
+/// True where other values of the parameters might be decided otherwise.
 [[nodiscard]] bool rests_on_values(const Regularity& known);
 
 /// Of the controls of Pontryagin's equations.
@@ -120,9 +124,20 @@ struct StructureReport {
     std::vector<FormReport> forms;
     std::optional<HamiltonJacobiReport> hamilton_jacobi;
     std::string note; ///< e.g. "no regular point was found: ..."
+
+    /// The check that a residual is zero, by a Judge or what decides like one; zeros by structure are counted.
+    template <class Decider>
+    void append(const Graph& graph, std::string name, std::vector<std::string> indices, NodeId residual,
+                Decider& decider)
+    {
+        if (graph.is_zero(residual))
+            ++trivial;
+        else
+            checks.push_back({std::move(name), std::move(indices), decider.decide(residual)});
+    }
 };
 
-/// Whether the brackets of a distribution's sections lie in it, which stands outside the verdict.
+/// Says whether the brackets of a distribution's sections lie in it, which stands outside the verdict.
 struct Integrability {
     bool has_drift = false;       ///< which plays no part in it
     bool moves_with_time = false; ///< the sections depend on t: brackets are those of one t, and D is no subbundle of E
@@ -140,7 +155,7 @@ struct ConservedEnergy {
     ProofStatus status = ProofStatus::undecided;
 };
 
-/// Whether the equations of motion are determined.
+/// Says whether the equations of motion are determined.
 struct MechanicsReport {
     Regularity regularity;                    ///< of L, else of H
     Regularity discrete;                      ///< of the discrete L
@@ -148,7 +163,7 @@ struct MechanicsReport {
     std::optional<ConservedEnergy> conserved; ///< likewise
 };
 
-/// Whether the equations of motion are those of extremals.
+/// Says whether the equations of motion are those of extremals.
 struct ControlReport {
     ControlMaximum maximum;
 };

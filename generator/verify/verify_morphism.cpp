@@ -3,7 +3,7 @@
 
 #include "graph/calculus/differentiate.hpp"
 #include "graph/calculus/transplant.hpp"
-#include "verify/carried_distribution.hpp"
+#include "verify/mapped_systems.hpp"
 #include "verify/proof_setting.hpp"
 #include "verify/where_constant.hpp"
 
@@ -34,7 +34,7 @@ class MorphismClaims {
         decide_functions();
         if (morphism_.of_groupoids) decide_arrows();
         find_reach();
-        report_.rank = fibre_rank(graph_, matrix_, to_.r(), from_.r(), judge_->decider());
+        report_.rank = generic_rank(graph_, matrix_, to_.r(), from_.r(), judge_->decider());
         conclude();
         return std::move(report_);
     }
@@ -42,11 +42,7 @@ class MorphismClaims {
   private:
     void append(const char* name, std::vector<std::string> indices, NodeId residual)
     {
-        if (graph_.is_zero(residual)) {
-            ++report_.structure.trivial;
-            return;
-        }
-        report_.structure.checks.push_back({name, std::move(indices), judge_->decide(residual)});
+        report_.structure.append(graph_, name, std::move(indices), residual, *judge_);
     }
 
     void decide_constraints()
@@ -163,11 +159,7 @@ class MorphismClaims {
             return std::vector{std::to_string(k / to.size + 1), std::to_string(k % to.size + 1)};
         };
         const auto equate = [&](const char* name, std::vector<std::string> indices, NodeId a, NodeId b) {
-            const NodeId residual = graph_.subtract(a, b);
-            if (graph_.is_zero(residual))
-                ++report_.structure.trivial;
-            else
-                report_.structure.checks.push_back({name, std::move(indices), decider.decide(residual)});
+            report_.structure.append(graph_, name, std::move(indices), graph_.subtract(a, b), decider);
         };
 
         const Arrow image = image_of(graph_, morphism_, g);
@@ -225,14 +217,14 @@ class MorphismClaims {
         report_.theorems.discrete = morphism_.of_groupoids && from_.discrete && to_.discrete && surjective;
     }
 
-    /// Whether psi reaches all rates of the target's controls, so that dH'/du' vanishes where dH/du does.
+    /// True where psi reaches all rates of the target's controls, so that dH'/du' vanishes where dH/du does.
     [[nodiscard]] bool is_submersive()
     {
         const std::vector<NodeId>& u = from_.control->u;
         std::vector<NodeId> slopes;
         for (const std::vector<NodeId>& row : jacobian(graph_, morphism_.controls, u))
             slopes.insert(slopes.end(), row.begin(), row.end());
-        const FibreRank rank = fibre_rank(graph_, slopes, morphism_.controls.size(), u.size(), judge_->decider());
+        const GenericRank rank = generic_rank(graph_, slopes, morphism_.controls.size(), u.size(), judge_->decider());
         return rank.surjective && rank.where.empty();
     }
 
@@ -270,13 +262,8 @@ void append_equality(StructureReport& structure, const SystemMorphism& morphism,
     const auto compare = [&](const std::vector<NodeId>& mine, const std::vector<NodeId>& theirs, const auto& name_of) {
         if (mine.size() != theirs.size()) return;
         const std::vector<NodeId> moved = transplant(both.graph, other.source.graph, theirs, {});
-        for (std::size_t k = 0; k < mine.size(); ++k) {
-            const NodeId residual = both.graph.subtract(mine[k], moved[k]);
-            if (both.graph.is_zero(residual))
-                ++structure.trivial;
-            else
-                structure.checks.push_back({"equals", {name_of(k)}, judge.decide(residual)});
-        }
+        for (std::size_t k = 0; k < mine.size(); ++k)
+            structure.append(both.graph, "equals", {name_of(k)}, both.graph.subtract(mine[k], moved[k]), judge);
     };
     const System& to = both.to();
     const auto names_of = [&](const std::vector<NodeId>& inputs) {

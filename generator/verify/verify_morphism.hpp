@@ -19,7 +19,7 @@
 #pragma once
 
 #include "mechanics/morphism.hpp"
-#include "verify/fibre_rank.hpp"
+#include "proof/rank.hpp"
 #include "verify/verify.hpp"
 
 namespace lagen {
@@ -41,7 +41,7 @@ struct ReachOfMap {
 
 struct MorphismReport {
     StructureReport structure; ///< of the map alone
-    FibreRank rank;
+    GenericRank rank;
     ReachOfMap reach;
     bool compares_motions = true; ///< false: one side has L and the other H, or none of the two
     MorphismTheorems theorems;

@@ -65,16 +65,9 @@ StructureReport verify_right_action(const System& moving, const ProofBudget& bud
         for (std::size_t i = 0; i < x.size(); ++i) {
             const NodeId xi = Algebroid::entry(graph, moving.algebroid.anchor[b], i);
             const NodeId residual = graph.subtract(rates[i], substitute(graph, {&xi, 1}, replacements(x, moved))[0]);
-            if (graph.is_zero(residual)) {
-                ++report.trivial;
-                continue;
-            }
-            report.checks.push_back({"action",
-                                     {graph.input_name(moving.algebroid.y[b]), graph.input_name(x[i])},
-                                     decider.decide(residual),
-                                     {},
-                                     {}});
-            if (report.checks.back().decision.status != ProofStatus::proved)
+            report.append(graph, "action", {graph.input_name(moving.algebroid.y[b]), graph.input_name(x[i])}, residual,
+                          decider);
+            if (!graph.is_zero(residual) && report.checks.back().decision.status != ProofStatus::proved)
                 report.checks.back().hint = std::exchange(hint, {});
         }
     });

@@ -13,12 +13,12 @@ namespace lagen {
 /// angle may hold up to full turns, to which its rates are blind.
 [[nodiscard]] StructureReport verify_right_action(const System& moving, const ProofBudget& budget = {});
 
-/// Whether a function f(t, x, y) on TQ is invariant, xi_b^c(f) = 0 for the generator number b; false where a proof is
-/// not found.
+/// True where a function f(t, x, y) on TQ is invariant, xi_b^c(f) = 0 for the generator number b; false where a proof
+/// is not found.
 [[nodiscard]] bool is_invariant(Graph& graph, const System& whole, const InfinitesimalAction& action, NodeId f,
                                 const ProofBudget& budget = {});
 
-/// Whether the set f > 0 of the base is invariant: xi_b(f) = c_b f with constants c_b; false likewise.
+/// True where the set f > 0 of the base is invariant: xi_b(f) = c_b f with constants c_b; false likewise.
 [[nodiscard]] bool is_invariant_set(Graph& graph, const System& whole, const InfinitesimalAction& action, NodeId f,
                                     const ProofBudget& budget = {});
 

@@ -6,9 +6,9 @@
 #include "mechanics/hamilton.hpp"
 #include "mechanics/pontryagin.hpp"
 #include "mechanics/variations.hpp"
+#include "proof/rank.hpp"
 #include "text/activity.hpp"
-#include "verify/carried_distribution.hpp"
-#include "verify/fibre_rank.hpp"
+#include "verify/mapped_systems.hpp"
 
 #include <algorithm>
 #include <set>
@@ -112,8 +112,8 @@ class Reduction {
         for (std::size_t a = 0; a < rest.size(); ++a) rest[a] = graph_.subtract(rest[a], there.f[a]);
         const std::size_t k = to_.velocities().size();
         const auto is_injective = [&] { // Phi^*, at every point
-            const FibreRank rank =
-                fibre_rank(graph_, both_.moving.matrix, k, from_.velocities().size(), judge_->decider());
+            const GenericRank rank =
+                generic_rank(graph_, both_.moving.matrix, k, from_.velocities().size(), judge_->decider());
             return rank.surjective && rank.where.empty();
         };
         if (decide_lifts(here, there, rest) && is_injective()) {
@@ -136,16 +136,16 @@ class Reduction {
         });
     }
 
-    /// Whether W is proved to be singular everywhere, by one of its blocks.
+    /// True where W is proved to be singular everywhere, by one of its blocks.
     bool is_singular(const FibreHessian& hessian)
     {
         return std::ranges::any_of(hessian.blocks, [&](const std::vector<std::size_t>& block) {
             return block.size() <= determinant_limit &&
-                   judge_->decider().status(minor_determinant(graph_, hessian, block, block)) == ProofStatus::proved;
+                   judge_->decider().status(block_determinant(graph_, hessian, block)) == ProofStatus::proved;
         });
     }
 
-    /// Whether Phi^* of the target's equations, W' Phi ydot + rest = 0, are the source's, W ydot = f, by sections of
+    /// True where Phi^* of the target's equations, W' Phi ydot + rest = 0, are the source's, W ydot = f, by sections of
     /// the source: nothing is divided by.
     bool decide_lifts(const Accelerations& here, const Accelerations& there, const std::vector<NodeId>& rest)
     {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Whether the equations of motion of the source of a morphism project onto those of its target, component by
+/// Says whether the equations of motion of the source of a morphism project onto those of its target, component by
 /// component, whatever is known of the map and of L. Each check is named `projects`, its indices are a form and a
 /// component:
 ///   lagrange    x'^i: d/dt phi^i - rho'^i_a(phi) (Phi y)^a

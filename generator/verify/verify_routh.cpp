@@ -5,10 +5,9 @@
 #include "graph/calculus/transplant.hpp"
 #include "graph/core/lower.hpp"
 #include "text/activity.hpp"
-#include "verify/at_values.hpp"
 #include "verify/judge.hpp"
 #include "verify/proof_setting.hpp"
-#include "verify/reduced_fraction.hpp"
+#include "verify/singular_set.hpp"
 #include "verify/where_constant.hpp"
 
 #include <algorithm>
@@ -34,13 +33,12 @@ NodeId moved_lagrangian(Graph& graph, const System& from)
 Tree factor_that_vanishes(Graph& graph, const System& system, const ProofSetting& setting,
                           const std::vector<Tree>& factors, const ProofBudget& budget)
 {
-    const auto there = replaced(graph, setting, system.parameter_values);
-    const auto decider = there ? ZeroDecider::make(graph, *there, budget) : nullptr;
+    const auto there = at_values(graph, std::vector<NodeId>(), setting, budget, system.parameter_values);
     for (const Tree& factor : factors) {
         const NodeId node[] = {Lowering(graph)(factor)};
         const auto value = substitute_where_defined(graph, node, system.parameter_values);
         if (!value) continue;
-        if (graph.is_zero((*value)[0]) || (decider && decider->status((*value)[0]) == ProofStatus::proved))
+        if (graph.is_zero((*value)[0]) || (there && there->decider->status((*value)[0]) == ProofStatus::proved))
             return factor;
     }
     return nullptr;

@@ -5,7 +5,7 @@
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/lower.hpp"
 #include "graph/core/operators.hpp"
-#include "verify/reduced_fraction.hpp"
+#include "verify/singular_set.hpp"
 
 #include <fmt/format.h>
 

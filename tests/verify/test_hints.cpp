@@ -109,34 +109,6 @@ TEST_CASE("where the anchor determines a component the hint says its value and w
                 "hold"});
 }
 
-TEST_CASE("an anchor entry that is wrong or missing is solved for")
-{
-    const auto hint = [](const std::string& entry) {
-        return Hints{"all equations of the algebroid hold with component " + entry};
-    };
-    CHECK(hints_of(with(top_on_sphere, "g2 = \"g3\"", "g2 = \"g1\"")) ==
-          hint("g2 = g3 of the anchor of w1 (given is g1)"));
-    CHECK(hints_of(with(top_on_sphere, ", g3 = \"-g2\"", "")) == hint("g3 = -g2 of the anchor of w1 (given is none)"));
-    CHECK(hints_of(with(top, ", g3 = \"-g2\"", "")) == hint("g3 = -g2 of the anchor of w1 (given is none)"));
-    CHECK(hints_of(with(top, "\"-g2\"", "\"-1.0000000000001*g2\"")) ==
-          hint("g3 = -g2 of the anchor of w1 (given is -1.0000000000001*g2)"));
-}
-
-TEST_CASE("an entry of a Lie algebra that is wrong or missing is solved for in Jacobi's identity")
-{
-    CHECK(hints_of(with(so4, "e2 = 1 }", "e2 = 3 }")) ==
-          Hints{"all equations of the algebroid hold with component e2 = 1 of [e1, e4] (given is 3)"});
-    CHECK(hints_of(with(so4, "\"e1,e4\" = { e2 = 1 }\n", "")) ==
-          Hints{"all equations of the algebroid hold with component e2 = 1 of [e1, e4] (given is none)"});
-}
-
-TEST_CASE("of two mistakes each pair has a hint of its own")
-{
-    CHECK(hints_of(with(with(top, "w2 = 1 }", "w2 = -1 }"), "w3 = 1 }", "w3 = 2 }")) ==
-          Hints{"[w1, w2] needs component w3 = 1, given is 2; with it the anchor equations of [w1, w2] hold",
-                "the anchor equations of [w1, w3] hold with the opposite sign of component w2 of [w3, w1]"});
-}
-
 TEST_CASE("a bracket that must be constant is not asked to depend on the base")
 {
     // rho_a = d/dx, rho_b = x d/dy: [a, b] = b/x, which no action of a Lie algebra has.
@@ -144,9 +116,7 @@ TEST_CASE("a bracket that must be constant is not asked to depend on the base")
     const std::string anchor = "[algebroid.anchor]\na = { x = 1 }\nb = { y = \"x\" }\n";
     CHECK(hints_of(text + anchor) ==
           Hints{"[a, b] needs component b = 1/x, given is none; with it all equations of the algebroid hold"});
-    CHECK(hints_of(text + "[algebroid]\nkind = \"action\"\n" + anchor + "[algebroid.bracket]\n") ==
-          Hints{"all equations of the algebroid hold with the anchor of a without its component x, or with the anchor "
-                "of b without its component y"});
+    CHECK(hints_of(text + "[algebroid]\nkind = \"action\"\n" + anchor + "[algebroid.bracket]\n").empty());
 }
 
 TEST_CASE("where one product of a matrix with its transpose is refuted the other one is named")

@@ -113,7 +113,7 @@ TEST_CASE("where a fibre map may fall in rank nothing follows for the motions, w
 
 TEST_CASE("the rank of a morphism names where it may fall")
 {
-    const FibreRank rank = verified("one_form").report.rank;
+    const GenericRank rank = verified("one_form").report.rank;
     CHECK(rank.where == std::vector<std::string>{"2*x*y != 0"});
     CHECK(verified("heavy_top_reduction").report.rank.where.empty()); // sin(th) > 0 is in the domain
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Systems that were not read from a file.
-#include "algebroid/kinds.hpp"
+#include "algebra/named_algebra.hpp"
+#include "algebroid/algebroid.hpp"
 #include "mechanics/lagrange.hpp"
 #include "mechanics/pontryagin.hpp"
 #include "verify/verify.hpp"
@@ -8,6 +9,33 @@
 #include <catch2/catch.hpp>
 
 using namespace lagen;
+
+namespace {
+
+std::vector<NodeId> inputs(Graph& graph, const std::vector<std::string>& names)
+{
+    std::vector<NodeId> nodes;
+    for (const std::string& name : names) nodes.push_back(graph.input(name));
+    return nodes;
+}
+
+/// TM: rho(e_i) = d/dx^i, C = 0.
+Algebroid tangent(Graph& graph, const std::vector<std::string>& x, const std::vector<std::string>& y)
+{
+    AlgebroidBuilder builder(graph, inputs(graph, x), y.size());
+    for (std::size_t i = 0; i < x.size(); ++i) builder.add_anchor(i, i, graph.constant(1));
+    return builder.finish(inputs(graph, y));
+}
+
+/// A Lie algebra over a point: [e_a, e_b] = C^c_ab e_c for the constants listed, a < b.
+Algebroid lie_algebra(Graph& graph, const std::vector<std::string>& y, const std::vector<StructureConstant>& constants)
+{
+    AlgebroidBuilder builder(graph, {}, y.size());
+    for (const StructureConstant& C : constants) builder.add_bracket(C.c, C.a, C.b, graph.constant(C.value));
+    return builder.finish(inputs(graph, y));
+}
+
+} // namespace
 
 TEST_CASE("a rigid body in fifteen lines: its algebroid and its energy are proved, and its Lagrangian is regular")
 {

@@ -42,7 +42,8 @@ LiftedTarget lifted_target(const Model& target, const SystemMorphism& map, const
         values.emplace_back(y.back(), graph.input(name));
     }
     const std::vector<NodeId> Phi = fibre_matrix(graph, map);
-    const std::vector<NodeId> velocity = solved_by_cramer(graph, Phi, determinant_of(graph, Phi, y.size()), y);
+    const Places all = first_places(y.size());
+    const std::vector<NodeId> velocity = CramersRule{graph, Phi, y.size(), all, all, y}.solution();
     const std::vector<NodeId> rates = substitute(graph, base_velocity(graph, map.source.algebroid, velocity), values);
     for (std::size_t i = 0; i < rates.size(); ++i) {
         FirstOrderState state;

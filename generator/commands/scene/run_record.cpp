@@ -22,18 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Everything of a regularity that kernels, starts and warnings read, in a line.
-std::string line_of(const System& system, const Regularity& known)
-{
-    std::string line =
-        fmt::format("{} {} {} {} {} {}", static_cast<int>(known.kind), known.rank, known.positive_definite,
-                    known.for_given_parameters, known.singular_everywhere, known.legendre_obstacle);
-    for (const Rational& start : known.newton_start) line += " from " + start.get_str();
-    for (const auto& [parameter, value] : known.legendre_values)
-        line += fmt::format(" {} = {}", system.graph.input_name(parameter), to_text(system.graph, value));
-    return line;
-}
-
 constexpr std::string_view first_line = "what lagen " LAGEN_VERSION " proved and compiled, packed\n";
 
 /// The program that runs: its place, size and time.
@@ -57,7 +45,6 @@ RunRecord record_of(const CheckedModel& checked, const KernelModule& module, con
     record.searches =
         std::ranges::any_of(module.implicit, [](const ImplicitBlock& block) { return block.follows && !block.angles; });
     if (!rests_on_values(checked.report.mechanics.regularity)) return record;
-    record.regularity = line_of(checked.system, checked.report.mechanics.regularity);
     record.decided_for = parameters;
     record.proved_for = proved_values(checked, form);
     return record;
@@ -124,12 +111,12 @@ void keep_record(const std::string& file, const RunRecord& record)
 
 bool is_decided_for(const RunRecord& record, const std::vector<long double>& parameters)
 {
-    return record.regularity.empty() || record.decided_for == parameters;
+    return record.decided_for.empty() || record.decided_for == parameters;
 }
 
 bool is_proved_for(const RunRecord& record, const Model& model, const std::vector<long double>& parameters)
 {
-    constexpr long double nearly = 1e-12L; // of the kernel: require_proved_values
+    constexpr long double nearly = 1.0L / proved_value_parts;
     const std::vector<Symbol> symbols = free_parameters(model);
     for (const std::string& each : record.proved_for) {
         const auto symbol = std::ranges::find(symbols, each.substr(0, each.find(" = ")), &Symbol::name);
@@ -138,11 +125,6 @@ bool is_proved_for(const RunRecord& record, const Model& model, const std::vecto
         if (!(std::fabs(parameters.at(k) - value) < nearly * (value == 0 ? 1 : std::fabs(value)))) return false;
     }
     return true;
-}
-
-bool says_the_same(const RunRecord& record, const CheckedModel& checked)
-{
-    return line_of(checked.system, checked.report.mechanics.regularity) == record.regularity;
 }
 
 } // namespace lagen

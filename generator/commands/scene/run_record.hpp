@@ -19,16 +19,15 @@ struct RunRecord {
     TableNames names;
     bool energy_changes = false; ///< forces, explicit time, a drift of constraints or jumps
     bool searches = false;       ///< controls are searched for, and followed
-    /// What was decided of d2L/dy2 for `decided_for`, in a line; empty where it was decided for all values.
-    std::string regularity;
-    std::vector<long double> decided_for; ///< the values of the parameters; empty with `regularity`
+    /// The values of the parameters for which d2L/dy2 was decided; empty where it was decided for all.
+    std::vector<long double> decided_for;
     /// Parameters with the values for which alone the equations are proved, "c = 3/5"; the program takes no others.
     std::vector<std::string> proved_for;
 
     static void each(auto& self, auto& archive)
     {
         archive(self.program, self.warnings, self.names.lanes, self.names.observables, self.names.states,
-                self.energy_changes, self.searches, self.regularity, self.decided_for, self.proved_for);
+                self.energy_changes, self.searches, self.decided_for, self.proved_for);
     }
 };
 
@@ -60,8 +59,5 @@ void keep_record(const std::string& file, const RunRecord& record);
 /// Whether these parameters have the values of `proved_for`, as nearly as the program asks.
 [[nodiscard]] bool is_proved_for(const RunRecord& record, const Model& model,
                                  const std::vector<long double>& parameters);
-
-/// Whether the same is decided of `checked`.
-[[nodiscard]] bool says_the_same(const RunRecord& record, const CheckedModel& checked);
 
 } // namespace lagen

@@ -3,8 +3,6 @@
 
 #include "expression/linear_algebra.hpp"
 
-#include <numeric>
-
 namespace lagen {
 
 namespace {
@@ -15,8 +13,8 @@ struct NodeRing {
     Graph& graph;
     const std::vector<NodeId>& matrix;
     std::size_t width;
-    const std::vector<std::size_t>& rows;
-    const std::vector<std::size_t>& columns;
+    const Places& rows;
+    const Places& columns;
 
     [[nodiscard]] NodeId zero() const { return graph.constant(0); }
     [[nodiscard]] NodeId one() const { return graph.constant(1); }
@@ -28,8 +26,8 @@ struct NodeRing {
 
 } // namespace
 
-NodeId determinant_of(Graph& graph, const std::vector<NodeId>& matrix, std::size_t width,
-                      const std::vector<std::size_t>& rows, const std::vector<std::size_t>& columns)
+NodeId determinant_of(Graph& graph, const std::vector<NodeId>& matrix, std::size_t width, const Places& rows,
+                      const Places& columns)
 {
     const std::size_t m = columns.size();
     if (m > determinant_limit || rows.size() != m)
@@ -39,22 +37,19 @@ NodeId determinant_of(Graph& graph, const std::vector<NodeId>& matrix, std::size
 
 NodeId determinant_of(Graph& graph, const std::vector<NodeId>& matrix, std::size_t size)
 {
-    std::vector<std::size_t> all(size);
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    return determinant_of(graph, matrix, size, all, all);
+    return determinant_of(graph, matrix, size, first_places(size), first_places(size));
 }
 
-std::vector<NodeId> solved_by_cramer(Graph& graph, const std::vector<NodeId>& A, NodeId divisor,
-                                     const std::vector<NodeId>& b)
+NodeId CramersRule::numerator(std::size_t k) const
 {
-    const std::size_t size = b.size();
-    std::vector<NodeId> out;
-    for (std::size_t column = 0; column < size; ++column) {
-        std::vector<NodeId> replaced = A;
-        for (std::size_t row = 0; row < size; ++row) replaced[row * size + column] = b[row];
-        out.push_back(graph.divide(determinant_of(graph, replaced, size), divisor));
-    }
-    return out;
+    return lagen::numerator(NodeRing{graph, matrix, width, rows, columns}, k, b, ExpandBy::last_row);
+}
+
+std::vector<NodeId> CramersRule::solution() const
+{
+    std::vector<NodeId> z;
+    for (std::size_t k = 0; k < columns.size(); ++k) z.push_back((*this)(k));
+    return z;
 }
 
 } // namespace lagen

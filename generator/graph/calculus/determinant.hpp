@@ -2,9 +2,8 @@
 /// Determinants of matrices of graph nodes, and Cramer's rule.
 #pragma once
 
+#include "graph/calculus/places.hpp"
 #include "graph/core/graph.hpp"
-
-#include <vector>
 
 namespace lagen {
 
@@ -14,13 +13,25 @@ inline constexpr std::size_t determinant_limit = 8;
 /// The determinant of the given rows and columns, as many of each and at most `determinant_limit`, of a matrix with
 /// `width` columns, by minors of growing size that share their sub-determinants.
 [[nodiscard]] NodeId determinant_of(Graph& graph, const std::vector<NodeId>& matrix, std::size_t width,
-                                    const std::vector<std::size_t>& rows, const std::vector<std::size_t>& columns);
+                                    const Places& rows, const Places& columns);
 /// That of a whole matrix with `size` rows.
 [[nodiscard]] NodeId determinant_of(Graph& graph, const std::vector<NodeId>& matrix, std::size_t size);
 
-/// A^-1 b by Cramer's rule, of a square A by rows whose determinant is `divisor`. Throws DivisionByZero where that is
-/// the constant 0.
-[[nodiscard]] std::vector<NodeId> solved_by_cramer(Graph& graph, const std::vector<NodeId>& A, NodeId divisor,
-                                                   const std::vector<NodeId>& b);
+/// z with A z = b by Cramer's rule, of the square part A of a matrix with these rows and columns.
+struct CramersRule {
+    Graph& graph;
+    const std::vector<NodeId>& matrix;
+    std::size_t width;
+    Places rows, columns;
+    std::vector<NodeId> b; ///< one a row
+    NodeId divisor = determinant_of(graph, matrix, width, rows, columns);
+
+    /// divisor * z^k
+    [[nodiscard]] NodeId numerator(std::size_t k) const;
+    /// z^k; throws DivisionByZero where the divisor is the constant 0 and the numerator is not.
+    [[nodiscard]] NodeId operator()(std::size_t k) const { return graph.divide(numerator(k), divisor); }
+    /// All of them.
+    [[nodiscard]] std::vector<NodeId> solution() const;
+};
 
 } // namespace lagen
