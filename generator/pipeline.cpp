@@ -3,7 +3,6 @@
 
 #include "elaborate/bind_parameters.hpp"
 #include "elaborate/make_frame.hpp"
-#include "emit/print_equations.hpp"
 #include "emit/print_header.hpp"
 #include "graph/core/evaluate.hpp"
 #include "graph/core/lower.hpp"
@@ -12,6 +11,7 @@
 #include "text/activity.hpp"
 #include "text/comma_list.hpp"
 #include "text/content_hash.hpp"
+#include "typeset/print_equations.hpp"
 #include "verify/control_maximum.hpp"
 #include "verify/leaf.hpp"
 

@@ -5,12 +5,12 @@
 #include "commands/line/options.hpp"
 #include "commands/machine/places.hpp"
 #include "commands/machine/write_file.hpp"
-#include "emit/print_equations.hpp"
 #include "equations/equation_system.hpp"
 #include "expression/parse.hpp"
 #include "model/scene_form.hpp"
 #include "pipeline.hpp"
 #include "text/comma_list.hpp"
+#include "typeset/print_equations.hpp"
 
 #include <fmt/format.h>
 

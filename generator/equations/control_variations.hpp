@@ -10,7 +10,7 @@
 
 #include "mechanics/system.hpp"
 #include "model/model.hpp"
-#include "notation/equation_set.hpp"
+#include "typeset/equation_set.hpp"
 
 namespace lagen {
 

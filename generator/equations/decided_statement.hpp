@@ -3,8 +3,8 @@
 #pragma once
 
 #include "algebroid/form.hpp"
-#include "notation/equation_set.hpp"
 #include "proof/decide.hpp"
+#include "typeset/equation_set.hpp"
 
 #include <functional>
 

@@ -20,7 +20,7 @@
 #include "model/form.hpp"
 #include "model/model.hpp"
 #include "model/scene_form.hpp"
-#include "notation/equation_set.hpp"
+#include "typeset/equation_set.hpp"
 #include "verify/find_invariants.hpp"
 #include "verify/verify.hpp"
 

@@ -3,7 +3,7 @@
 
 #include "mechanics/system.hpp"
 #include "model/model.hpp"
-#include "notation/equation_system.hpp"
+#include "typeset/equation_system.hpp"
 
 namespace lagen {
 

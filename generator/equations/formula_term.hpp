@@ -2,7 +2,7 @@
 /// The right side of the formula over a block: of its groups those that occur.
 #pragma once
 
-#include "notation/equation_set.hpp"
+#include "typeset/equation_set.hpp"
 
 namespace lagen {
 

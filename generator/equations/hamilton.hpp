@@ -9,7 +9,7 @@
 
 #include "equations/kept_symbols.hpp"
 #include "model/model.hpp"
-#include "notation/equation_set.hpp"
+#include "typeset/equation_set.hpp"
 #include "verify/verify.hpp"
 
 namespace lagen {

@@ -4,8 +4,8 @@
 
 #include "expression/find_part.hpp"
 #include "expression/rewrite.hpp"
-#include "notation/latex_names.hpp"
 #include "symbolic/shortest_form.hpp"
+#include "typeset/latex_names.hpp"
 
 #include <algorithm>
 #include <cstdlib>

@@ -6,8 +6,8 @@
 #include "equations/definition_choice.hpp"
 #include "expression/tree_identity.hpp"
 #include "model/model.hpp"
-#include "notation/equation_set.hpp"
 #include "symbolic/ginac_door.hpp"
+#include "typeset/equation_set.hpp"
 
 #include <optional>
 

@@ -4,7 +4,7 @@
 
 #include "mechanics/system.hpp"
 #include "model/model.hpp"
-#include "notation/equation_set.hpp"
+#include "typeset/equation_set.hpp"
 #include "verify/verify.hpp"
 
 namespace lagen {

@@ -11,7 +11,7 @@
 #include "equations/kept_symbols.hpp"
 #include "mechanics/system.hpp"
 #include "model/model.hpp"
-#include "notation/equation_set.hpp"
+#include "typeset/equation_set.hpp"
 
 namespace lagen {
 

@@ -3,8 +3,8 @@
 
 #include "expression/rewrite.hpp"
 #include "model/total_cost.hpp"
-#include "notation/latex_names.hpp"
 #include "text/activity.hpp"
+#include "typeset/latex_names.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -8,8 +8,8 @@
 #include "equations/label_casimirs.hpp"
 #include "mechanics/written_algebroid.hpp"
 #include "model/model.hpp"
-#include "notation/equation_set.hpp"
 #include "symbolic/shortest_form.hpp"
+#include "typeset/equation_set.hpp"
 
 #include <functional>
 #include <memory>

@@ -2,9 +2,7 @@
 /// Trees to GiNaC, each shared sub-tree once.
 #include "expression/fold.hpp"
 #include "symbolic/ginac_door.hpp"
-#include "symbolic/ginac_erf.hpp"
 #include "symbolic/ginac_ring.hpp"
-#include "symbolic/ginac_stumpff.hpp"
 
 #include <algorithm>
 
@@ -28,6 +26,43 @@ const std::string& SymbolTable::name_of(const GiNaC::symbol& symbol) const
 }
 
 namespace {
+
+// Functions that GiNaC does not have.
+
+GiNaC::ex erf_at_zero(const GiNaC::ex& x);
+GiNaC::ex bell(const GiNaC::ex& x, unsigned argument);
+GiNaC::ex stumpff_at_zero(const GiNaC::ex& k, const GiNaC::ex& z);
+GiNaC::ex stumpff_slope(const GiNaC::ex& k, const GiNaC::ex& z, unsigned argument);
+
+/// erf(x): erf(0) = 0, erf' = 2/sqrt(pi) exp(-x^2).
+DECLARE_FUNCTION_1P(erf)
+REGISTER_FUNCTION(erf, eval_func(erf_at_zero).derivative_func(bell))
+
+/// stumpff(k, z): c_k(0) = 1/k!, c_k' = (k c_{k+2} - c_{k+1})/2; k is a number.
+DECLARE_FUNCTION_2P(stumpff)
+REGISTER_FUNCTION(stumpff, eval_func(stumpff_at_zero).derivative_func(stumpff_slope))
+
+GiNaC::ex erf_at_zero(const GiNaC::ex& x)
+{
+    return x.is_zero() ? GiNaC::ex(0) : erf(x).hold();
+}
+
+GiNaC::ex bell(const GiNaC::ex& x, unsigned)
+{
+    return 2 / GiNaC::sqrt(GiNaC::Pi) * GiNaC::exp(-GiNaC::pow(x, 2));
+}
+
+GiNaC::ex stumpff_at_zero(const GiNaC::ex& k, const GiNaC::ex& z)
+{
+    if (z.is_zero()) return 1 / GiNaC::factorial(GiNaC::ex_to<GiNaC::numeric>(k));
+    return stumpff(k, z).hold();
+}
+
+GiNaC::ex stumpff_slope(const GiNaC::ex& k, const GiNaC::ex& z, unsigned argument)
+{
+    if (argument != 1) throw InternalError("the order of a Stumpff function is no variable");
+    return (k * stumpff(k + 2, z) - stumpff(k + 1, z)) / 2;
+}
 
 GiNaC::numeric to_numeric(const Rational& value)
 {

@@ -4,7 +4,7 @@
 
 #include "graph/core/evaluate.hpp"
 #include "graph/core/lower.hpp"
-#include "notation/equation_set.hpp"
+#include "typeset/equation_set.hpp"
 
 namespace lagen {
 

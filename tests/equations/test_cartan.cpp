@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The Cartan sections of discrete Lagrangians: what is printed has the values of the graph, what is said of them is
 /// proved on all kinds of groupoids, and a wrong side, sign or bracket is refuted.
-#include "emit/print_equations.hpp"
 #include "equations/derive.hpp"
 #include "equations/printed_value.hpp"
 #include "graph/core/evaluate.hpp"
@@ -9,6 +8,7 @@
 #include "mechanics/cartan.hpp"
 #include "model/read_model.hpp"
 #include "support/model_equations.hpp"
+#include "typeset/print_equations.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -2,14 +2,14 @@
 /// Definitions that stay symbols in derived equations: with what the symbols stand for, each equation has the values of
 /// the one that is written out.
 #include "elaborate/make_frame.hpp"
-#include "emit/print_equations.hpp"
-#include "emit/print_equations_terms.hpp"
 #include "equations/numbers.hpp"
 #include "model/read_model.hpp"
 #include "support/dice.hpp"
 #include "support/json.hpp"
 #include "support/model_equations.hpp"
 #include "text/alphabet.hpp"
+#include "typeset/print_equations.hpp"
+#include "typeset/print_equations_terms.hpp"
 
 #include <catch2/catch.hpp>
 

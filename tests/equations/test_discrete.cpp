@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The discrete equations that a person reads have the values of those on the graph, and the form of the textbooks.
-#include "emit/print_equations.hpp"
 #include "equations/derive.hpp"
 #include "equations/printed_value.hpp"
 #include "graph/core/evaluate.hpp"
@@ -9,6 +8,7 @@
 #include "model/families.hpp"
 #include "support/model_equations.hpp"
 #include "support/tolerances.hpp"
+#include "typeset/print_equations.hpp"
 
 #include <catch2/catch.hpp>
 

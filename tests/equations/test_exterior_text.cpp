@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// dx^i and de^a as they are printed.
 #include "elaborate/elaborate.hpp"
-#include "emit/print_equations.hpp"
 #include "equations/exterior.hpp"
 #include "model/read_model.hpp"
+#include "typeset/print_equations.hpp"
 
 #include <catch2/catch.hpp>
 

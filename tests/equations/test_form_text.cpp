@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Hamilton's and Pontryagin's equations, forces and energy balances, character by character.
-#include "emit/print_equations.hpp"
 #include "equations/form_models.hpp"
 #include "equations/numbers.hpp"
 #include "equations/written_models.hpp"
 #include "support/model_equations.hpp"
+#include "typeset/print_equations.hpp"
 
 #include <catch2/catch.hpp>
 

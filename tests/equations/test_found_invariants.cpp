@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Invariants that are found without help: of which motions which ones, and that nothing that is none is among them.
-#include "emit/print_equations.hpp"
 #include "equations/derive.hpp"
 #include "model/read_model.hpp"
 #include "support/stages.hpp"
+#include "typeset/print_equations.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// What `derive` prints of nonholonomic models.
-#include "emit/print_equations.hpp"
 #include "equations/derive.hpp"
 #include "model/read_model.hpp"
 #include "support/stages.hpp"
+#include "typeset/print_equations.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Lagrange's equations of textbook models, character by character, and the same in every process.
 #include "elaborate/build_algebroid.hpp"
-#include "emit/print_equations.hpp"
 #include "equations/written_models.hpp"
+#include "typeset/print_equations.hpp"
 
 #include <catch2/catch.hpp>
 

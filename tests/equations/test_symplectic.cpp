@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The symplectic sections of models in continuous time and the Poisson bracket: what is printed, what is proved of
 /// every kind, and what is refuted where the bracket is none.
-#include "emit/print_equations.hpp"
 #include "equations/derive.hpp"
 #include "expression/parse.hpp"
 #include "graph/core/evaluate.hpp"
 #include "mechanics/symplectic.hpp"
 #include "model/read_model.hpp"
 #include "support/model_equations.hpp"
+#include "typeset/print_equations.hpp"
 #include "verify/verify.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Variations of E-paths and of the action: what is printed, what is proved of several kinds of algebroids, and what is
 /// refuted where the brackets are none of an algebroid.
-#include "emit/print_equations.hpp"
 #include "equations/derive.hpp"
 #include "model/read_model.hpp"
 #include "support/model_equations.hpp"
+#include "typeset/print_equations.hpp"
 #include "verify/verify.hpp"
 
 #include <catch2/catch.hpp>

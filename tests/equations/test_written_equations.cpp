@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Equations by vectors and by indices say what their components say: in numbers on every model, and some as exact
 /// texts.
-#include "emit/print_equations_terms.hpp"
 #include "equations/written_blocks.hpp"
+#include "typeset/print_equations_terms.hpp"
 
 #include <catch2/catch.hpp>
 

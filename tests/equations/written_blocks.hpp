@@ -3,11 +3,11 @@
 #pragma once
 
 #include "elaborate/make_frame.hpp"
-#include "emit/print_equations.hpp"
 #include "equations/written_meaning.hpp"
 #include "model/read_model.hpp"
 #include "model/scene_form.hpp"
 #include "support/model_equations.hpp"
+#include "typeset/print_equations.hpp"
 
 #include <catch2/catch.hpp>
 

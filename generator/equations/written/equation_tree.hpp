@@ -2,7 +2,7 @@
 /// An equation as one tree, [symbol, [mass * rate, ..], [group, ..]], in which indices are sought and put.
 #pragma once
 
-#include "notation/equation_set.hpp"
+#include "typeset/equation_set.hpp"
 
 namespace lagen {
 

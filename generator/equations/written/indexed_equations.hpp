@@ -3,7 +3,7 @@
 #pragma once
 
 #include "model/model.hpp"
-#include "notation/equation_set.hpp"
+#include "typeset/equation_set.hpp"
 
 namespace lagen {
 

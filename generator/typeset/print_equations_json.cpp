@@ -19,9 +19,9 @@
 /// kinds "differential", d symbol, and "form", d e^symbol, the right side is the sum of value e^{basis[0]} ^
 /// e^{basis[1]} .. of the groups, each {"label", "value", "basis"}; of "section", e_symbol, and "commutator",
 /// [e_symbol, e_other], that of value e_{basis[0]}.
-#include "emit/print_equations.hpp"
-#include "emit/print_equations_terms.hpp"
 #include "text/record.hpp"
+#include "typeset/print_equations.hpp"
+#include "typeset/print_equations_terms.hpp"
 
 namespace lagen {
 namespace {

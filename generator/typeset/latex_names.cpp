@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// LaTeX symbols from identifiers.
-#include "notation/latex_names.hpp"
+#include "typeset/latex_names.hpp"
 
 #include "expression/symbol.hpp"
 #include "text/alphabet.hpp"

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Equations as UTF-8 text: products by a space, powers raised, a dot over the letter of a name such as x or w1 and
 /// d/dt before any other.
-#include "emit/equation_writer.hpp"
-#include "emit/print_equations.hpp"
-#include "emit/text_block.hpp"
 #include "text/alphabet.hpp"
 #include "text/comma_list.hpp"
 #include "text/diagnostic.hpp"
+#include "typeset/equation_writer.hpp"
+#include "typeset/print_equations.hpp"
 
 #include <fmt/core.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Terms of a right side, and their lines.
-#include "emit/print_equations_terms.hpp"
+#include "typeset/print_equations_terms.hpp"
 
 #include "text/alphabet.hpp"
 

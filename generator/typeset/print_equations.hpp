@@ -2,9 +2,9 @@
 /// An EquationSet for people and programs.
 #pragma once
 
-#include "notation/equation_set.hpp"
-#include "notation/equation_system.hpp"
 #include "text/record.hpp"
+#include "typeset/equation_set.hpp"
+#include "typeset/equation_system.hpp"
 
 namespace lagen {
 

@@ -2,7 +2,7 @@
 /// The right side of an equation as signed terms, and lines of them.
 #pragma once
 
-#include "notation/equation_set.hpp"
+#include "typeset/equation_set.hpp"
 
 #include <utility>
 

@@ -3,7 +3,7 @@
 /// digits and what follows '_' as subscripts, several letters in one \mathit, "δx" as the variation of x.
 #pragma once
 
-#include "notation/equation_set.hpp"
+#include "typeset/equation_set.hpp"
 
 #include <map>
 #include <optional>

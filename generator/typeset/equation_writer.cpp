@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "emit/equation_writer.hpp"
+#include "typeset/equation_writer.hpp"
 
-#include "emit/text_block.hpp"
 #include "text/alphabet.hpp"
 #include "text/comma_list.hpp"
 

@@ -2,7 +2,7 @@
 /// Trees and the sides of equations as mathematics; a table of spellings makes text or LaTeX of it.
 #pragma once
 
-#include "emit/print_equations_terms.hpp"
+#include "typeset/print_equations_terms.hpp"
 
 #include <array>
 #include <functional>

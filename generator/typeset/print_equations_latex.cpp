@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Equations as LaTeX (amsmath), and names as LaTeX symbols.
-#include "emit/equation_writer.hpp"
-#include "emit/print_equations.hpp"
-#include "notation/latex_names.hpp"
 #include "text/alphabet.hpp"
+#include "typeset/equation_writer.hpp"
+#include "typeset/latex_names.hpp"
+#include "typeset/print_equations.hpp"
 
 #include <algorithm>
 
