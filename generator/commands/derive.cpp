@@ -6,6 +6,7 @@
 #include "commands/machine/places.hpp"
 #include "commands/machine/write_file.hpp"
 #include "equations/equation_system.hpp"
+#include "equations/written/every_size.hpp"
 #include "expression/parse.hpp"
 #include "model/scene_form.hpp"
 #include "pipeline.hpp"
@@ -88,6 +89,25 @@ std::string form_to_derive(const Model& model)
     return model.discrete && !model.discrete->lagrangian ? "lagrange" : default_form(model);
 }
 
+/// Lagrange's equations of long families, from models of fewer entries; nothing where the file holds for its size
+/// alone.
+std::optional<EquationSet> equations_of_fewer(const CheckedModel& checked)
+{
+    const auto derive_at = [&](long size) {
+        std::vector<Setting> settings = checked.settings;
+        const std::string& name = checked.model.sizes[0].name;
+        std::erase_if(settings, [&](const Setting& setting) { return setting.name == name; });
+        settings.push_back({name, whole_text("<size>", std::to_string(size))});
+        const CheckedModel fewer = load(checked.model.file->name, settings, true);
+        return with_written_blocks(derive("lagrange", fewer.model, fewer.system, fewer.report), fewer.model);
+    };
+    try {
+        return equations_of_every_size(checked.model, derive_at);
+    } catch (const ModelError&) { // values for each of its entries
+        return std::nullopt;
+    }
+}
+
 /// Nobody waits for a flood on a terminal: how much there is, before it comes.
 void announce(const std::string& text, const std::string& file)
 {
@@ -121,9 +141,13 @@ ExitCode run_derive(Arguments arguments)
     if (is_form(form, FormKind::discrete) && checked.report.mechanics.discrete.kind == Regularity::Kind::degenerate)
         warn("the discrete Lagrangian is degenerate: the arrow of a step is not determined by the equations");
     const bool expanded = options.has("expand");
-    EquationSet equations = derive(form, checked.model, checked.system, checked.report, brackets,
-                                   expanded ? Definitions::expanded : Definitions::kept);
-    if (!expanded && format != "json") equations = with_written_blocks(std::move(equations), checked.model);
+    const bool by_index = !expanded && format != "json";
+    std::optional<EquationSet> fewer;
+    if (by_index && is_form(form, FormKind::lagrange)) fewer = equations_of_fewer(checked);
+    EquationSet equations = fewer ? std::move(*fewer)
+                                  : derive(form, checked.model, checked.system, checked.report, brackets,
+                                           expanded ? Definitions::expanded : Definitions::kept);
+    if (by_index && !fewer) equations = with_written_blocks(std::move(equations), checked.model);
     std::string text;
     if (format == "json") {
         Record record = record_of(equations);

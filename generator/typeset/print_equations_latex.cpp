@@ -196,7 +196,7 @@ std::string print_latex(const EquationSet& equations)
         "\\subsection*{" + escape_latex(equations.title.empty() ? equations.model : equations.title) + "}\n";
     for (const auto* blocks : {&equations.given, &equations.blocks})
         for (const EquationBlock& block : *blocks)
-            if (!block.equations.empty()) text += block_text(block, writer);
+            if (!written_equations(block).empty()) text += block_text(block, writer);
     text += where_text(equations, names, writer);
     if (!equations.statements.empty()) text += "\\paragraph{statements}\n\\begin{itemize}\n";
     for (const DecidedStatement& statement : equations.statements)

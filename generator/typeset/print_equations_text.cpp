@@ -183,7 +183,7 @@ std::string print_text(const EquationSet& equations, LongLines long_lines)
     std::string text = (equations.title.empty() ? equations.model : equations.title) + "\n";
     for (const auto* blocks : {&equations.given, &equations.blocks})
         for (const EquationBlock& block : *blocks)
-            if (!block.equations.empty()) print_block(text, block, long_lines);
+            if (!written_equations(block).empty()) print_block(text, block, long_lines);
     print_where(text, equations, long_lines);
     if (!equations.statements.empty()) text += "\nstatements:\n";
     for (const DecidedStatement& statement : equations.statements) print_statement(text, statement);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Sums over indices of families in derived equations: equal to their terms, exact texts; what the model gives.
+#include "equations/written/every_size.hpp"
 #include "equations/written/index_pattern.hpp"
 #include "equations/written_blocks.hpp"
+#include "support/golden.hpp"
 
 using namespace lagen;
 
@@ -105,6 +107,61 @@ TEST_CASE("sums over indices are equal to their terms")
         const std::vector<Setting> settings{{"n", whole_text("--set", std::to_string(n))}};
         CHECK(checked_blocks(kept_equations(read_model(LAGEN_SOURCE_DIR "/models/chain.toml", settings, choosers()))) >=
               (n > 2 ? 4U : 0U));
+    }
+}
+
+/// Those of a long chain, from short ones; `asked` has the sizes of these.
+std::optional<EquationSet> of_every_size(const std::string& text, std::vector<long>& asked)
+{
+    return equations_of_every_size(read_model_text("test.toml", text), [&](long size) {
+        asked.push_back(size);
+        const std::vector<Setting> settings{{"n", whole_text("--set", std::to_string(size))}};
+        const Model model = read_model_text("test.toml", text, settings);
+        const System system = elaborate(model);
+        return with_written_blocks(derive("lagrange", model, system, verify(system)), model);
+    });
+}
+
+/// models/chain.toml with n links and one part of its file in the place of another.
+std::string chain_of(int n, const std::string& part = "", const std::string& instead = "")
+{
+    std::string text = testing::read_text(LAGEN_SOURCE_DIR "/models/chain.toml");
+    text.replace(text.find("n = 4"), 5, "n = " + std::to_string(n));
+    if (!part.empty()) text.replace(text.find(part), part.size(), instead);
+    return text;
+}
+
+TEST_CASE("the equations of a long chain are those of short ones")
+{
+    std::vector<long> asked;
+    const std::optional<EquationSet> six = of_every_size(chain_of(6), asked);
+    REQUIRE(six);
+    CHECK(asked == std::vector<long>{4, 1, 2, 3});
+    EquationSet both = of_text(chain_of(6)); // by components, derived with six links
+    for (auto* blocks : {&both.given, &both.blocks})
+        for (EquationBlock& block : *blocks) {
+            const auto& others = blocks == &both.given ? six->given : six->blocks;
+            const auto found = std::ranges::find(others, block.title, &EquationBlock::title);
+            REQUIRE(found != others.end());
+            CHECK(found->equations.empty());
+            block.written = found->written;
+        }
+    CHECK(checked_blocks(both) == 6);
+    const std::optional<EquationSet> long_chain = of_every_size(chain_of(64), asked);
+    REQUIRE(long_chain);
+    CHECK(block_text(*long_chain, "momenta") ==
+          "  p_w[i] = Σ_{j=1..64} l[i] l[j] (Σ_{k=max(i,j)..64} m[k]) w[j] cos(a[i] - a[j])   (i = 1..64)\n");
+}
+
+TEST_CASE("a Lagrangian that tells sizes or neighbours apart is derived at its own size")
+{
+    const std::string potential = "g*sum(i, 1, n, m[i]*y(i))";
+    for (const char* other : {"g*sum(i, 1, n, m[i]*y(i))/n", "sum(i, 1, n-1, cos(a[i+1] - a[i]))", "g*m[1]*y(1)",
+                              "sin(sum(i, 1, n, a[i]))"}) {
+        std::vector<long> asked;
+        INFO(other);
+        CHECK(!of_every_size(chain_of(6, potential, other), asked));
+        CHECK(asked.empty());
     }
 }
 
