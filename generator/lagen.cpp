@@ -40,6 +40,7 @@ constexpr std::array commands{
     CommandEntry{"linearize", "linearise at an equilibrium: eigenvalues, controllability, the gain of least cost",
                  run_linearize},
     CommandEntry{"new", "write a commented model of some kind to start from", run_new},
+    CommandEntry{"schema", "print the JSON Schema of model files, for editors", run_schema},
     CommandEntry{"models", "list the example models", run_models},
     CommandEntry{"methods", "list the integrators", run_methods},
 };

@@ -4,7 +4,7 @@
 #include "commands/line/options.hpp"
 #include "commands/machine/places.hpp"
 #include "commands/machine/write_file.hpp"
-#include "model/names.hpp"
+#include "model/schema.hpp"
 
 #include <fmt/format.h>
 
@@ -29,8 +29,11 @@ const std::string kind_help =
 const CommandSyntax new_syntax{"new",
                                "NAME",
                                "Writes NAME.toml, a commented model of some kind to start from, into the current "
-                               "folder. Never overwrites a file.",
+                               "folder, and lagen.schema.json for editors where there is none. Never overwrites a "
+                               "file.",
                                {{"kind", "KIND", kind_help.c_str(), "tangent"}}};
+
+constexpr const char* schema_file = "lagen.schema.json"; ///< editors look for it beside the model
 
 /// The text of a template, whose NAME is the name of the model.
 std::string filled(const fs::path& file, const std::string& name)
@@ -44,10 +47,11 @@ std::string filled(const fs::path& file, const std::string& name)
 
 std::string first_lines(const std::string& name, const std::string& kind)
 {
-    return fmt::format("# Made by `lagen new {0} --kind {1}`. Next:\n"
+    return fmt::format("#:schema {2}\n"
+                       "# Made by `lagen new {0} --kind {1}`. Next:\n"
                        "#   lagen check {0}.toml\n#   lagen derive {0}.toml\n"
                        "#   lagen run {0}.toml -o {0}.csv --plot {0}.svg\n#\n",
-                       name, kind);
+                       name, kind, schema_file);
 }
 
 } // namespace
@@ -67,11 +71,14 @@ ExitCode run_new(Arguments arguments)
         {name + ".toml", first_lines(name, kind) + filled(folder / (kind + ".toml"), name)}};
     if (fs::exists(parts))
         for (const auto& part : fs::directory_iterator(parts))
-            files.emplace_back(name + "_" + part.path().filename().string(), filled(part.path(), name));
+            files.emplace_back(name + "_" + part.path().filename().string(),
+                               fmt::format("#:schema {}\n", schema_file) + filled(part.path(), name));
     std::sort(files.begin(), files.end());
     for (const auto& [file, text] : files)
         if (std::error_code ignored; fs::exists(fs::symlink_status(file, ignored)))
             throw UsageError(fmt::format("'{}' is there already, and is not overwritten", file));
+    if (std::error_code ignored; !fs::exists(fs::symlink_status(schema_file, ignored)))
+        files.emplace_back(schema_file, json_schema_text());
     std::string told;
     for (const auto& [file, text] : files) {
         write_file(file, text);

@@ -4,7 +4,7 @@
 
 #include "algebra/named_algebra.hpp"
 #include "elaborate/build_workspace.hpp"
-#include "model/table_reader.hpp"
+#include "model/complaints.hpp"
 #include "text/comma_list.hpp"
 
 #include <algorithm>

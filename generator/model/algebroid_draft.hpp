@@ -4,34 +4,19 @@
 #pragma once
 
 #include "model/model_reader.hpp"
-#include "model/table_reader.hpp"
-
-#include <array>
 
 namespace lagen {
 
-/// A kind and the keys that it takes, besides `kind`.
-struct KindEntry {
-    const char* name;
-    AlgebroidKind kind;
-    std::array<const char*, 4> keys;
-
-    [[nodiscard]] bool takes(std::string_view key) const;
-};
-
-/// The entry called `key`, or nullptr.
-[[nodiscard]] const TomlEntry* find_entry(const TomlValue& table, std::string_view key);
-
 /// One table like [algebroid], or a file that stands for one.
 struct AlgebroidDraft {
-    const TomlValue* table = nullptr; ///< null where a file stands for it
-    std::string title;                ///< "[algebroid]", "[algebroid.of]", ..; the file's name
+    Item table;        ///< nothing where a file or the groupoid stands for it
+    std::string title; ///< "[algebroid]", "[algebroid.of]", ..; the file's name
     SourceRange where;
-    const KindEntry* kind = nullptr; ///< null where a file stands for it
-    std::size_t included = 0;        ///< number in ModelReader::included, where a file stands for it
-    bool outermost = false;          ///< its fibre is the model's, which is declared later
-    std::vector<Symbol> fibre;       ///< empty where left out
-    std::vector<Symbol> momenta;     ///< empty where left out
+    std::optional<AlgebroidKind> kind; ///< nothing where a file stands for it
+    std::size_t included = 0;          ///< number in ModelReader::included, where a file stands for it
+    bool outermost = false;            ///< its fibre is the model's, which is declared later
+    std::vector<Symbol> fibre;         ///< empty where left out
+    std::vector<Symbol> momenta;       ///< empty where left out
     bool dual = false;
     LevelSetFrame level_set; ///< where it is one
     std::vector<AlgebroidDraft> of;
@@ -42,12 +27,8 @@ struct DraftSpace {
     std::vector<Symbol> base, fibre, momenta;
 };
 
-/// Reads kinds and files of a table and of the tables and files inside it. Throws ModelError.
-[[nodiscard]] AlgebroidDraft draft_algebroid(ModelReader& reader, const TomlEntry& block);
-/// That of a groupoid, where the model has no [algebroid]; `kind` is the groupoid's.
-[[nodiscard]] AlgebroidDraft draft_of_groupoid(const TomlEntry& block, GroupoidKind kind);
-/// That of the tangent bundle of the base, in the place of `block`.
-[[nodiscard]] AlgebroidDraft draft_of_tangent(const TomlEntry& block);
+/// Reads kinds and files of a table and of the tables and files inside it; `depth` 0: the outermost. Throws ModelError.
+[[nodiscard]] AlgebroidDraft draft_table(ModelReader& reader, const Item& table, std::size_t depth);
 /// The number of sections of its algebroid, over `n` base coordinates.
 [[nodiscard]] std::size_t rank_of(const GroupoidBlock& block, std::size_t n);
 /// "so(n)" and "R^n" with the sizes of the model put in.
@@ -63,9 +44,8 @@ struct DraftSpace {
 /// Declares the base coordinates that [base] leaves to files and prolongations, and checks those that it gives. The
 /// number of coordinates of the leaf, which come first; those of prolongations follow, the innermost first.
 std::size_t declare_inner_base(ModelReader& reader, const AlgebroidDraft& draft);
-/// Coordinates that `over` of a tangent table names, as places in `base`.
-[[nodiscard]] std::vector<std::size_t> read_over(const TomlValue& table, const std::string& title,
-                                                 const std::vector<Symbol>& base);
+/// Coordinates that `over` of a tangent table names, as places in `base`; all where it is left out.
+[[nodiscard]] std::vector<std::size_t> read_over(const Item& over, const std::vector<Symbol>& base);
 
 /// Has the frames of level sets made, and names the fibre of an inner one that leaves it out. Throws ModelError.
 void make_level_sets(ModelReader& reader, AlgebroidDraft& draft);
@@ -93,20 +73,12 @@ void inherit_definitions(ModelReader& reader);
 /// Their Lagrangians, forces and dissipation, where the model has no mechanics of its own; once the entries are read.
 void inherit_mechanics(ModelReader& reader);
 
-/// Throws ModelError where a nonholonomic table says neither by `sections` nor by `constraints` what D is.
-void require_distribution(const AlgebroidDraft& draft);
 /// `drift` and `constraints` of a nonholonomic block; once its sections are read. Throws ModelError (a constraint that
 /// is not affine, or has no Y, and others).
 void read_distribution(const ModelReader& reader, AlgebroidBlock& block, const AlgebroidDraft& draft);
 
 /// The entries of a table, and of the tables inside it, closed; `block` is their record.
 void read_entries(const ModelReader& reader, AlgebroidBlock& block, const AlgebroidDraft& draft);
-/// True where a line of an anchor is by a base coordinate or a family of them, x = "..", and no table of a section.
-[[nodiscard]] bool is_rate_line(const Model& model, const AlgebroidBlock& block, const TomlEntry& line);
-/// Its entries: rho^x_a is the coefficient of y^a. Throws ModelError where the expression is not linear.
-void read_rate_line(const ModelReader& reader, AlgebroidBlock& block, const TomlEntry& line);
-/// The matrices of `representation`.
-void read_representation(const ModelReader& reader, AlgebroidBlock& block, const TomlEntry& entry);
 [[nodiscard]] std::vector<Symbol> coordinates_at(const Model& model, const std::vector<std::size_t>& places);
 /// The base coordinates of a block.
 [[nodiscard]] std::vector<Symbol> coordinates_of(const Model& model, const AlgebroidBlock& block);
@@ -123,6 +95,9 @@ void define_inner_velocities(ModelReader& reader);
 
 /// value * y, written as a person would: y itself where value is 1, -y where it is -1.
 [[nodiscard]] Tree product_of(const Tree& value, const Tree& y);
+
+/// 0 where there are no terms.
+[[nodiscard]] Tree sum_of(const std::vector<Tree>& terms);
 
 /// [a, b, ..] or [[a, b], ..] of this shape; a scalar is its one entry.
 [[nodiscard]] Tree array_tree(const Shape& shape, const std::vector<Tree>& entries);

@@ -3,8 +3,8 @@
 /// prolongations add.
 #include "model/algebroid_draft.hpp"
 
+#include "model/complaints.hpp"
 #include "model/families.hpp"
-#include "model/read_values.hpp"
 #include "text/comma_list.hpp"
 
 #include <algorithm>
@@ -42,10 +42,10 @@ DraftSpace product_space(const ModelReader& reader, const AlgebroidDraft& draft)
 std::vector<Symbol> standard_fibre(const AlgebroidDraft& draft, const std::vector<Symbol>& base,
                                    const std::vector<Symbol>& inner_fibre)
 {
-    switch (draft.kind->kind) {
+    switch (*draft.kind) {
     case AlgebroidKind::tangent: {
         std::vector<Symbol> moving;
-        for (const std::size_t i : read_over(*draft.table, draft.title, base)) moving.push_back(base[i]);
+        for (const std::size_t i : read_over(draft.table.at("over"), base)) moving.push_back(base[i]);
         return velocities_of(moving);
     }
     case AlgebroidKind::prolongation: {
@@ -56,8 +56,8 @@ std::vector<Symbol> standard_fibre(const AlgebroidDraft& draft, const std::vecto
     default: break;
     }
     if (draft.outermost) return {};
-    throw ModelError(fmt::format("{} does not say what its fibre coordinates are", draft.title), draft.where,
-                     "fibre = [\"y1\", \"y2\"], one a section of the inner frame");
+    throw complain::missing(draft.title, {"fibre"}, draft.where,
+                            "fibre = [\"y1\", \"y2\"], one a section of the inner frame");
 }
 
 std::string names_text(const std::vector<Symbol>& symbols)
@@ -74,7 +74,7 @@ bool same_names(const Symbol& a, const Symbol& b)
 std::vector<Symbol> leaf_base(ModelReader& reader, const AlgebroidDraft& leaf)
 {
     std::vector<Symbol> base;
-    if (leaf.kind == nullptr) return reader.included[leaf.included].model.base.coordinates;
+    if (!leaf.kind) return reader.included[leaf.included].model.base.coordinates;
     for (const AlgebroidDraft& factor : leaf.of) append(base, reader.included[factor.included].model.base.coordinates);
     return base;
 }
@@ -91,7 +91,7 @@ void place_included(ModelReader& reader, const AlgebroidDraft& leaf, const std::
             ++next;
         }
     };
-    if (leaf.kind == nullptr) return place(leaf);
+    if (!leaf.kind) return place(leaf);
     for (const AlgebroidDraft& factor : leaf.of) place(factor);
 }
 
@@ -133,45 +133,35 @@ std::vector<Symbol> coordinates_of(const Model& model, const AlgebroidBlock& blo
 const AlgebroidDraft& leaf_of(const AlgebroidDraft& draft)
 {
     const AlgebroidDraft* leaf = &draft;
-    while (leaf->kind != nullptr && leaf->kind->kind != AlgebroidKind::product && !leaf->of.empty())
-        leaf = &leaf->of[0];
+    while (leaf->kind && leaf->kind != AlgebroidKind::product && !leaf->of.empty()) leaf = &leaf->of[0];
     return *leaf;
 }
 
-std::vector<std::size_t> read_over(const TomlValue& table, const std::string& title, const std::vector<Symbol>& base)
+std::vector<std::size_t> read_over(const Item& over, const std::vector<Symbol>& base)
 {
     std::vector<std::size_t> out;
-    const TomlEntry* entry = find_entry(table, "over");
-    if (entry == nullptr) {
+    if (!over) {
         for (std::size_t i = 0; i < base.size(); ++i) out.push_back(i);
         return out;
     }
-    for (const Excerpt& name : read_list(entry->value, fmt::format("'over' of {}", title))) {
-        const auto key = resolve_key(base, name.text);
-        const SourceRange where = name.range(0, name.text.size());
-        if (!key) {
-            throw ModelError(fmt::format("'over' names '{}', which is no base coordinate", name.text), where,
-                             hint_for(name.text, declared_names(base), "base coordinates"));
-        }
-        for (const std::size_t i : key->indices) {
-            if (std::ranges::find(out, i) != out.end()) {
-                throw ModelError(fmt::format("'over' names '{}' twice", base[i].name), where);
-            }
+    for (const Excerpt& name : over.texts())
+        for (const std::size_t i : require_key(base, name, "'over'", "base coordinate").indices) {
+            if (std::ranges::find(out, i) != out.end())
+                throw complain::names_twice("'over'", base[i].name, name.range(0, name.text.size()));
             out.push_back(i);
         }
-    }
     return out;
 }
 
 DraftSpace space_of(const ModelReader& reader, const AlgebroidDraft& draft, const std::vector<Symbol>& leaf_base)
 {
-    if (draft.kind == nullptr) {
+    if (!draft.kind) {
         const Model& model = reader.included[draft.included].model;
         return {leaf_base, model.fibre.coordinates, model.fibre.momenta};
     }
     DraftSpace space{leaf_base, draft.fibre, draft.momenta};
     std::vector<Symbol> inner_fibre;
-    if (draft.kind->kind == AlgebroidKind::product) {
+    if (*draft.kind == AlgebroidKind::product) {
         const DraftSpace factors = product_space(reader, draft);
         if (space.fibre.empty()) space.fibre = factors.fibre;
         if (space.momenta.empty() && draft.fibre.empty()) space.momenta = factors.momenta;
@@ -179,15 +169,13 @@ DraftSpace space_of(const ModelReader& reader, const AlgebroidDraft& draft, cons
         const DraftSpace inner = space_of(reader, draft.of[0], leaf_base);
         space.base = inner.base;
         inner_fibre = inner.fibre;
-        if (draft.kind->kind == AlgebroidKind::prolongation)
-            append(space.base, draft.dual ? inner.momenta : inner.fibre);
+        if (*draft.kind == AlgebroidKind::prolongation) append(space.base, draft.dual ? inner.momenta : inner.fibre);
     }
     if (space.fibre.empty()) space.fibre = standard_fibre(draft, space.base, inner_fibre);
     if (space.momenta.empty()) space.momenta = with_prefix("p_", space.fibre);
     if (space.momenta.size() != space.fibre.size()) {
-        throw ModelError(fmt::format("the number of momenta of {} is {}, where one a fibre coordinate is required: {}",
-                                     draft.title, space.momenta.size(), space.fibre.size()),
-                         draft.where);
+        throw complain::wrong_number("momenta of " + draft.title, space.momenta.size(), "the fibre", space.fibre.size(),
+                                     draft.where);
     }
     return space;
 }
@@ -213,8 +201,8 @@ std::size_t declare_added(ModelReader& reader, const AlgebroidDraft& draft)
 std::size_t declare_inner_base(ModelReader& reader, const AlgebroidDraft& draft)
 {
     const AlgebroidDraft& leaf = leaf_of(draft);
-    const bool product = leaf.kind != nullptr && leaf.kind->kind == AlgebroidKind::product;
-    if (leaf.kind != nullptr && !product) return declare_added(reader, draft);
+    const bool product = leaf.kind == AlgebroidKind::product;
+    if (leaf.kind && !product) return declare_added(reader, draft);
     const std::vector<Symbol> given = reader.model.base.coordinates;
     const std::vector<Symbol> head = leaf_base(reader, leaf);
     const std::vector<Symbol> all = space_of(reader, draft, head).base;
@@ -222,9 +210,9 @@ std::size_t declare_inner_base(ModelReader& reader, const AlgebroidDraft& draft)
     bool fits = given.size() == places;
     for (std::size_t i = product ? head.size() : 0; fits && i < places; ++i) fits = same_names(given[i], all[i]);
     if (!fits) {
-        throw ModelError(fmt::format("the number of base coordinates is {}, where {} gives {}: {}", given.size(),
-                                     draft.title, all.size(), names_text(all)),
-                         given.front().where, "leave [base] coordinates out, or give exactly these");
+        throw complain::wrong_number("base coordinates", given.size(), draft.title,
+                                     fmt::format("{}: {}", all.size(), names_text(all)), given.front().where,
+                                     "leave [base] coordinates out, or give exactly these");
     }
     if (given.empty() && product) require_distinct(reader, leaf, head);
     declare_symbols(reader, {all.begin() + static_cast<std::ptrdiff_t>(places), all.end()}, Role::base);

@@ -3,7 +3,8 @@
 #include "model/families.hpp"
 
 #include "expression/parse_family.hpp"
-#include "model/table_reader.hpp"
+#include "model/complaints.hpp"
+#include "model/read_values.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -92,10 +93,10 @@ bool is_whole(const std::vector<Symbol>& symbols, std::size_t first, const Run& 
 
 /// `spelled` is the key with numbers for its indices.
 [[noreturn]] void refuse_key(const std::vector<Symbol>& symbols, const Excerpt& key, const std::string& owner,
-                             const char* noun, const std::string& spelled)
+                             const char* noun, const std::string& spelled, const ModelReader::Hint& hint)
 {
-    throw ModelError(fmt::format("{} names '{}', which is no {}", owner, key.text, noun), key.range(0, key.text.size()),
-                     hint_for_key(symbols, spelled, fmt::format("{}s", noun).c_str()));
+    throw complain::names_no(owner, key.text, noun, key.range(0, key.text.size()),
+                             hint ? hint(key.text) : hint_for_key(symbols, spelled, fmt::format("{}s", noun).c_str()));
 }
 
 } // namespace
@@ -115,19 +116,29 @@ std::optional<ResolvedKey> resolve_key(const std::vector<Symbol>& symbols, const
 }
 
 ResolvedKey require_key(const std::vector<Symbol>& symbols, const Excerpt& key, const std::string& owner,
-                        const char* noun, const Scope* scope)
+                        const char* noun, const Scope* scope, const ModelReader::Hint& hint)
 {
     if (auto found = resolve_key(symbols, scope != nullptr ? entry_key(key, *scope) : key.text))
         return *std::move(found);
-    refuse_key(symbols, key, owner, noun, key.text);
+    refuse_key(symbols, key, owner, noun, key.text, hint);
+}
+
+std::size_t require_entry(const std::vector<Symbol>& symbols, const Excerpt& key, const std::string& owner,
+                          const char* noun, const Scope* scope)
+{
+    const ResolvedKey found = require_key(symbols, key, owner, noun, scope);
+    if (found.shape.rank != Rank::scalar)
+        throw complain::names_no(owner, found.name, fmt::format("single {}", noun), key.range(0, key.text.size()),
+                                 fmt::format("for example \"{}\"", symbols[found.indices[0]].name));
+    return found.indices[0];
 }
 
 std::vector<RunningKey> require_keys(const std::vector<Symbol>& symbols, const Excerpt& key, const std::string& owner,
-                                     const char* noun, const Scope& scope)
+                                     const char* noun, const Scope& scope, const ModelReader::Hint& hint)
 {
     const std::vector<std::string> running = running_indices(key, scope);
     if (std::ranges::all_of(running, [](const std::string& index) { return index.empty(); }))
-        return {{require_key(symbols, key, owner, noun, &scope), {}}};
+        return {{require_key(symbols, key, owner, noun, &scope, hint), {}}};
     std::map<std::string, std::size_t> values;
     for (const std::string& index : running)
         if (!index.empty()) values.emplace(index, 1);
@@ -147,7 +158,7 @@ std::vector<RunningKey> require_keys(const std::vector<Symbol>& symbols, const E
         const bool met = entry == entry_name(family->name, family->shape, k); // of W[j,j] the diagonal, of W[1,j] a row
         if (met) out.push_back({*resolve_key(symbols, entry), std::move(trees)});
     }
-    if (out.empty()) refuse_key(symbols, key, owner, noun, first);
+    if (out.empty()) refuse_key(symbols, key, owner, noun, first, hint);
     return out;
 }
 
@@ -211,8 +222,8 @@ std::vector<Tree> fit_values(const ArrayValue& value, const Shape& wanted, const
 {
     if (value.shape == wanted) return value.entries;
     if (value.shape.rank == Rank::scalar) return std::vector<Tree>(wanted.size(), value.entries[0]);
-    throw ModelError(fmt::format("{} is {}, where {} is required", what, to_text(value.shape), to_text(wanted)), where,
-                     wanted.rank == Rank::scalar ? scalar_hint : "one number stands for all entries");
+    throw complain::is_not(what, to_text(value.shape), to_text(wanted), where,
+                           wanted.rank == Rank::scalar ? scalar_hint : "one number stands for all entries");
 }
 
 std::vector<Excerpt> sides_of(const Excerpt& key)
@@ -229,6 +240,183 @@ std::vector<Excerpt> sides_of(const Excerpt& key)
         begin = k + 1;
     }
     return out;
+}
+
+namespace {
+
+FamilyRole family_role(Role role)
+{
+    switch (role) {
+    case Role::parameter: return FamilyRole::parameter;
+    case Role::base: return FamilyRole::base;
+    case Role::fibre: return FamilyRole::fibre;
+    case Role::ambient: return FamilyRole::ambient;
+    case Role::momentum: return FamilyRole::momentum;
+    case Role::control: return FamilyRole::control;
+    case Role::state: return FamilyRole::state;
+    case Role::input: return FamilyRole::input;
+    case Role::element: return FamilyRole::element;
+    case Role::next: return FamilyRole::next;
+    default: throw InternalError("a family of a role that has none");
+    }
+}
+
+/// The number of symbols that play this role so far.
+std::size_t count_of(const Model& model, Role role)
+{
+    switch (role) {
+    case Role::parameter: return model.parameters.size();
+    case Role::base: return model.base.coordinates.size();
+    case Role::fibre: return model.fibre.coordinates.size();
+    case Role::ambient: return 0; // they stand in the block of the inner algebroid
+    case Role::control: return model.control ? model.control->controls.size() : 0;
+    case Role::state: return model.states.size();
+    case Role::input: return model.inputs.size();
+    case Role::element: return model.groupoid->element.size();
+    case Role::next: return model.groupoid->next.size();
+    default: return model.fibre.momenta.size();
+    }
+}
+
+void append_symbol(Model& model, const Symbol& symbol, Role role)
+{
+    switch (role) {
+    case Role::parameter: model.parameters.push_back(Parameter{symbol, nullptr}); break;
+    case Role::base: model.base.coordinates.push_back(symbol); break;
+    case Role::fibre: model.fibre.coordinates.push_back(symbol); break;
+    case Role::ambient: break;
+    case Role::control: model.control->controls.push_back(symbol); break;
+    case Role::state: model.states.push_back(FirstOrderState{symbol, nullptr, 0}); break;
+    case Role::input: model.inputs.push_back(Input{symbol, nullptr}); break;
+    case Role::element: model.groupoid->element.push_back(symbol); break;
+    case Role::next: model.groupoid->next.push_back(symbol); break;
+    default: model.fibre.momenta.push_back(symbol); break;
+    }
+}
+
+} // namespace
+
+DeclaredKey read_declaration(const ModelReader& reader, const Excerpt& key)
+{
+    const SourceRange where = key.range(0, key.text.size());
+    if (!has_bracket(key.text)) return {key.text, {}, {Symbol{key.text, where, {}, {}, {}}}};
+    const FamilyDeclaration family = parse_family(key);
+    DeclaredKey out{family.name, close_shape(family, reader.model.scope), {}};
+    for (std::size_t k = 0; k < out.shape.size(); ++k)
+        out.symbols.push_back(Symbol{entry_name(out.name, out.shape, k), where, {}, {}, {}});
+    return out;
+}
+
+std::string key_of(const ModelReader& reader, const Setting& setting)
+{
+    return entry_key(whole_text(option_of(setting), setting.name), reader.model.scope);
+}
+
+const char* option_of(const Setting& setting)
+{
+    return setting.binds ? "<--bind>" : "<--set>";
+}
+
+namespace {
+
+template <class Records>
+std::vector<Symbol> symbols_of(const Records& records)
+{
+    std::vector<Symbol> out;
+    for (const auto& each : records) out.push_back(each.symbol);
+    return out;
+}
+
+} // namespace
+
+std::vector<Symbol> parameter_symbols(const Model& model)
+{
+    return symbols_of(model.parameters);
+}
+
+std::vector<Symbol> state_symbols(const Model& model)
+{
+    return symbols_of(model.states);
+}
+
+std::vector<Symbol> input_symbols(const Model& model)
+{
+    return symbols_of(model.inputs);
+}
+
+std::vector<Symbol> free_parameters(const Model& model)
+{
+    std::vector<Symbol> out;
+    for (const Parameter& parameter : model.parameters)
+        if (!parameter.bound) out.push_back(parameter.symbol);
+    return out;
+}
+
+bool has_own_step(const Model& model)
+{
+    return model.discrete && std::ranges::none_of(model.parameters, [&](const Parameter& parameter) {
+               return parameter.symbol.name == model.discrete->step.name;
+           });
+}
+
+void declare_symbols(ModelReader& reader, const std::vector<Symbol>& symbols, Role role)
+{
+    const std::size_t first = count_of(reader.model, role);
+    for (const SymbolGroup& group : group_symbols(symbols)) {
+        const SourceRange& where = symbols[group.first].where;
+        if (group.shape.rank == Rank::scalar) {
+            reader.names.declare(group.name, role, where);
+            continue;
+        }
+        reader.names.declare_family(group.name, group.shape, role, where);
+        reader.model.families.push_back(Family{group.name, family_role(role), group.shape, first + group.first, where});
+    }
+    for (const Symbol& symbol : symbols) append_symbol(reader.model, symbol, role);
+}
+
+std::vector<Symbol> read_names(const ModelReader& reader, const Item& list)
+{
+    std::vector<Symbol> out;
+    for (const Excerpt& key : list.texts()) {
+        const DeclaredKey declared = read_declaration(reader, key);
+        out.insert(out.end(), declared.symbols.begin(), declared.symbols.end());
+    }
+    return out;
+}
+
+std::size_t index_of(const std::vector<Symbol>& symbols, const std::string& name)
+{
+    return static_cast<std::size_t>(std::ranges::find(symbols, name, &Symbol::name) - symbols.begin());
+}
+
+std::vector<std::string> names_of(const std::vector<Symbol>& symbols)
+{
+    std::vector<std::string> out;
+    for (const Symbol& symbol : symbols) out.push_back(symbol.name);
+    return out;
+}
+
+bool is_plain_zero(const Tree& tree)
+{
+    return tree->kind == TreeKind::number && tree->number == 0;
+}
+
+void add_to_scope(Scope& scope, const Model& model, const std::vector<Symbol>& symbols, FamilyRole role)
+{
+    const auto family_at = [&](std::size_t k) {
+        return std::find_if(model.families.begin(), model.families.end(),
+                            [&](const Family& each) { return each.role == role && each.first == k; });
+    };
+    for (std::size_t k = 0; k < symbols.size();) {
+        const auto family = family_at(k);
+        if (family == model.families.end()) {
+            scope.declare(symbols[k].name, symbols[k].where);
+            ++k;
+        } else {
+            scope.declare_family(family->name, family->shape, family->where);
+            k += family->shape.size();
+        }
+    }
 }
 
 } // namespace lagen

@@ -21,7 +21,12 @@ struct ResolvedKey {
 /// The same where it must name one: ModelError "OWNER names 'KEY', which is no NOUN". With a scope an index may be an
 /// expression over sizes: "x[n]".
 [[nodiscard]] ResolvedKey require_key(const std::vector<Symbol>& symbols, const Excerpt& key, const std::string& owner,
-                                      const char* noun, const Scope* scope = nullptr);
+                                      const char* noun, const Scope* scope = nullptr,
+                                      const ModelReader::Hint& hint = {});
+
+/// The same where it must name a single one; its number.
+[[nodiscard]] std::size_t require_entry(const std::vector<Symbol>& symbols, const Excerpt& key,
+                                        const std::string& owner, const char* noun, const Scope* scope = nullptr);
 
 /// A key, and the values of its running indices as numbers.
 struct RunningKey {
@@ -30,7 +35,8 @@ struct RunningKey {
 };
 /// The same, where an index that is a new name runs: "x[j]" is x[1], x[2], .. with j = 1, 2, ..; "W[1,j]" is a row.
 [[nodiscard]] std::vector<RunningKey> require_keys(const std::vector<Symbol>& symbols, const Excerpt& key,
-                                                   const std::string& owner, const char* noun, const Scope& scope);
+                                                   const std::string& owner, const char* noun, const Scope& scope,
+                                                   const ModelReader::Hint& hint = {});
 
 /// The names of a key "a,b" or "a, b, c". Commas inside W[1,2] do not separate.
 [[nodiscard]] std::vector<Excerpt> sides_of(const Excerpt& key);
@@ -60,8 +66,10 @@ struct DeclaredKey {
 [[nodiscard]] DeclaredKey read_declaration(const ModelReader& reader, const Excerpt& key);
 
 /// The names and families of a list, entry by entry.
-[[nodiscard]] std::vector<Symbol> read_names(const ModelReader& reader, const TomlEntry& entry,
-                                             const std::string& what);
+[[nodiscard]] std::vector<Symbol> read_names(const ModelReader& reader, const Item& list);
+
+/// The number 0, as it is written.
+[[nodiscard]] bool is_plain_zero(const Tree& tree);
 
 /// What a setting names, with its indices as closing spells them: "x[n]" is "x[8]" where n is 8.
 [[nodiscard]] std::string key_of(const ModelReader& reader, const Setting& setting);

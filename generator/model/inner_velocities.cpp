@@ -12,16 +12,10 @@ namespace lagen {
 
 namespace {
 
-Tree sum_of_velocities(const std::vector<Tree>& terms)
-{
-    if (terms.empty()) return number(0);
-    return terms.size() == 1 ? terms[0] : add(terms);
-}
-
 std::vector<Tree> sums_of(const std::vector<std::vector<Tree>>& terms)
 {
     std::vector<Tree> out;
-    for (const std::vector<Tree>& each : terms) out.push_back(sum_of_velocities(each));
+    for (const std::vector<Tree>& each : terms) out.push_back(sum_of(each));
     return out;
 }
 
@@ -81,7 +75,7 @@ void note_values(IncludedModel& included, const std::vector<Tree>& y)
 void define_below(ModelReader& reader, const AlgebroidDraft* draft, const AlgebroidBlock& block,
                   const std::vector<Tree>& y, bool named)
 {
-    if (draft != nullptr && draft->kind == nullptr) {
+    if (draft != nullptr && !draft->kind) {
         if (named) note_values(reader.included[draft->included], y);
         draft = nullptr;
     }
@@ -147,6 +141,12 @@ Tree product_of(const Tree& value, const Tree& y)
     if (value->kind == TreeKind::number && value->number == 1) return y;
     if (negative && value->arguments[0]->number == 1) return negate(y);
     return multiply({value, y});
+}
+
+Tree sum_of(const std::vector<Tree>& terms)
+{
+    if (terms.empty()) return number(0);
+    return terms.size() == 1 ? terms[0] : add(terms);
 }
 
 Tree array_tree(const Shape& shape, const std::vector<Tree>& entries)

@@ -4,7 +4,7 @@
 
 #include "expression/parse.hpp"
 #include "expression/tree.hpp"
-#include "model/table_reader.hpp"
+#include "model/complaints.hpp"
 #include "text/alphabet.hpp"
 
 #include <algorithm>
@@ -12,42 +12,60 @@
 
 namespace lagen {
 
+namespace {
+
+/// One and several of each role, in the order of the enumeration.
+constexpr std::pair<const char*, const char*> role_texts[] = {
+    {"the time", "time"},
+    {"a size", "sizes"},
+    {"a parameter", "parameters"},
+    {"a base coordinate", "base coordinates"},
+    {"a fibre coordinate", "fibre coordinates"},
+    {"an ambient fibre coordinate", "ambient fibre coordinates"},
+    {"a momentum", "momenta"},
+    {"a control", "controls"},
+    {"a first-order state", "first-order states"},
+    {"an input", "inputs"},
+    {"a definition", "definitions"},
+    {"an inner velocity", "inner velocities"},
+    {"a Casimir", "Casimirs"},
+    {"an observable", "observables"},
+    {"an E-form", "E-forms"},
+    {"an entry of the group element", "entries of the group element"},
+    {"a coordinate of the target", "coordinates of the target"},
+    {"the step", "the step"},
+    {"a built-in quantity", "built-in quantities"},
+};
+static_assert(std::size(role_texts) == static_cast<std::size_t>(Role::built_in) + 1);
+
+/// C++20 keywords [lex.key], alternative tokens, and macros of the standard library that a header may meet.
+constexpr std::string_view reserved_words =
+    " EOF FILE INFINITY NAN NULL alignas alignof and and_eq asm assert auto bitand bitor bool break case catch char "
+    "char16_t char32_t char8_t class co_await co_return co_yield compl concept const const_cast consteval constexpr "
+    "constinit continue decltype default delete do double dynamic_cast else enum errno explicit export extern false "
+    "float for friend goto if inline int linux long main mutable namespace new noexcept not not_eq nullptr offsetof "
+    "operator or or_eq private protected public register reinterpret_cast requires return setjmp short signed sizeof "
+    "static static_assert static_cast stderr stdin stdout struct switch template this thread_local throw true try "
+    "typedef typeid typename union unix unsigned using virtual void volatile wchar_t while xor xor_eq ";
+
+std::string shown(const std::string& name)
+{
+    constexpr std::size_t longest = 60;
+    std::string out;
+    for (const char c : name.substr(0, longest)) out.push_back(static_cast<unsigned char>(c) < 0x20 ? '?' : c);
+    return name.size() > longest ? out + "..." : out;
+}
+
+} // namespace
+
 const char* role_text(Role role)
 {
-    switch (role) {
-    case Role::time: return "the time";
-    case Role::size: return "a size";
-    case Role::parameter: return "a parameter";
-    case Role::base: return "a base coordinate";
-    case Role::fibre: return "a fibre coordinate";
-    case Role::ambient: return "an ambient fibre coordinate";
-    case Role::momentum: return "a momentum";
-    case Role::control: return "a control";
-    case Role::state: return "a first-order state";
-    case Role::input: return "an input";
-    case Role::definition: return "a definition";
-    case Role::casimir: return "a Casimir";
-    case Role::observable: return "an observable";
-    case Role::form: return "an E-form";
-    case Role::element: return "an entry of the group element";
-    case Role::next: return "a coordinate of the target";
-    case Role::step: return "the step";
-    case Role::velocity: return "an inner velocity";
-    case Role::built_in: return "a built-in quantity";
-    }
-    return "a name";
+    return role_texts[static_cast<std::size_t>(role)].first;
 }
 
 std::string role_plural(Role role)
 {
-    if (role == Role::time) return "time";
-    if (role == Role::momentum) return "momenta";
-    if (role == Role::element) return "entries of the group element";
-    if (role == Role::next) return "coordinates of the target";
-    if (role == Role::step) return "the step";
-    if (role == Role::built_in) return "built-in quantities";
-    const std::string_view text = role_text(role);
-    return std::string(text.substr(text.find(' ') + 1)) + "s";
+    return role_texts[static_cast<std::size_t>(role)].second;
 }
 
 std::string place_text(const SourceRange& where)
@@ -120,6 +138,29 @@ void require_identifier(const std::string& name, const SourceRange& where, const
     if (is_identifier(name)) return;
     throw ModelError(
         fmt::format("'{}' cannot be {}: letters, digits and '_' are allowed, and no digit first", name, what), where);
+}
+
+void require_class_name(const std::string& name, const SourceRange& where, bool from_file_name)
+{
+    constexpr std::size_t longest = 200;
+    const std::string hint = from_file_name ? "give the model a name: name = \"my_model\""
+                                            : "use letters, digits and '_', with no digit first, e.g. \"heavy_top\"";
+    const std::string subject = from_file_name
+                                    ? fmt::format("the file's stem '{}', which names the model,", shown(name))
+                                    : fmt::format("the model name '{}'", shown(name));
+    const auto refuse = [&](const char* why, const std::string& advice) {
+        throw ModelError(subject + " " + why, where, advice);
+    };
+    const bool spelled =
+        !name.empty() && (is_letter(name.front()) || name.front() == '_') &&
+        std::all_of(name.begin(), name.end(), [](char c) { return is_letter(c) || is_digit(c) || c == '_'; });
+    if (!spelled) refuse("is not a C++ identifier", hint);
+    if (name.size() > longest) refuse("is longer than 200 characters", {});
+    if (reserved_words.find(" " + name + " ") != std::string_view::npos)
+        refuse("is a reserved word of C++", "choose another name");
+    const bool capital = name.size() > 1 && name[0] == '_' && name[1] >= 'A' && name[1] <= 'Z';
+    if (capital || name.find("__") != std::string::npos)
+        refuse("is of a form that C++ reserves for itself", "choose another name");
 }
 
 } // namespace lagen

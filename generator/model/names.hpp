@@ -5,6 +5,7 @@
 #include "expression/array.hpp"
 #include "text/diagnostic.hpp"
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -32,6 +33,25 @@ enum class Role {
     step,
     built_in
 };
+
+/// A set of roles: the names that an expression may use.
+struct Roles {
+    std::uint32_t bits = 0;
+
+    constexpr Roles() = default;
+    constexpr Roles(Role role) : bits(1U << static_cast<unsigned>(role)) {}
+    [[nodiscard]] constexpr bool has(Role role) const { return (bits & Roles(role).bits) != 0; }
+    friend constexpr Roles operator|(Roles a, Roles b)
+    {
+        a.bits |= b.bits;
+        return a;
+    }
+    friend constexpr bool operator==(Roles, Roles) = default;
+};
+constexpr Roles operator|(Role a, Role b)
+{
+    return Roles(a) | Roles(b);
+}
 
 /// "a base coordinate", ...: how messages call a role.
 [[nodiscard]] const char* role_text(Role role);

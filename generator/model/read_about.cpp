@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The [about] block: texts, units and LaTeX of names, of a family at once or of single entries.
+#include "model/complaints.hpp"
 #include "model/families.hpp"
-#include "model/read_values.hpp"
-#include "model/table_reader.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -36,30 +35,14 @@ LatexDefect latex_defect(const std::string& text)
     return open.empty() ? LatexDefect{} : LatexDefect{open.back(), "opens a brace that it does not close"};
 }
 
-std::string read_latex(const TomlValue& value, const std::string& name)
+Symbol read_entry(const Item& item)
 {
-    std::string text = read_text(value, fmt::format("the latex of '{}'", name));
-    const LatexDefect defect = latex_defect(text);
-    if (defect.at != std::string::npos)
-        throw ModelError(fmt::format("the latex of '{}' {}", name, defect.what),
-                         value.text.range(defect.at, defect.at + 1),
+    const auto text = [&](const char* key) { return item.at(key) ? item.at(key).text() : ""; };
+    const Symbol about{item.name(), item.where(), text("text"), text("unit"), text("latex")};
+    if (const LatexDefect defect = latex_defect(about.latex); defect.at != std::string::npos)
+        throw ModelError(fmt::format("{} {}", item.at("latex").title(), defect.what),
+                         item.at("latex").value().text.range(defect.at, defect.at + 1),
                          "write it as it stands between two $ in LaTeX, for instance '\\dot{\\theta}_1'");
-    return text;
-}
-
-Symbol read_entry(const TomlEntry& entry)
-{
-    TableReader table(entry.value, fmt::format("'{}' of [about]", entry.name()),
-                      fmt::format("write {} = {{ text = \"..\", unit = \"..\", latex = \"..\" }}", entry.name()));
-    Symbol about{entry.name(), entry.where(), {}, {}, {}};
-    const auto take = [&](const char* key, std::string& text) {
-        const TomlEntry* field = table.take(key);
-        if (field != nullptr) text = read_text(field->value, fmt::format("the {} of '{}'", key, entry.name()));
-    };
-    take("text", about.text);
-    take("unit", about.unit);
-    if (const TomlEntry* latex = table.take("latex")) about.latex = read_latex(latex->value, entry.name());
-    table.finish();
     return about;
 }
 
@@ -95,63 +78,60 @@ void note(Model& model, const Symbol& about)
     if (model.notes.size() == before) model.notes.push_back(about);
 }
 
+/// Calls visit(symbol) for each symbol of the model that [about] may describe.
+template <class Visit>
+void for_each_symbol(Model& model, Visit visit)
+{
+    for (Parameter& parameter : model.parameters) visit(parameter.symbol);
+    for (auto* list : {&model.base.coordinates, &model.fibre.coordinates, &model.fibre.momenta})
+        std::ranges::for_each(*list, visit);
+    if (is_nonholonomic(model)) std::ranges::for_each(model.algebroid.of[0].fibre, visit);
+    if (model.control) std::ranges::for_each(model.control->controls, visit);
+    for (FirstOrderState& state : model.states) visit(state.symbol);
+    for (Input& input : model.inputs) visit(input.symbol);
+}
+
 void describe(Model& model, const Symbol& about)
 {
     bool found = false;
-    const auto apply = [&](Symbol& symbol) {
+    for_each_symbol(model, [&](Symbol& symbol) {
         if (!names_entry(about.name, symbol.name)) return;
         symbol = for_symbol(about, symbol.name, symbol.where);
         found = true;
-    };
-    for (Parameter& parameter : model.parameters) apply(parameter.symbol);
-    for (auto* list : {&model.base.coordinates, &model.fibre.coordinates, &model.fibre.momenta})
-        std::for_each(list->begin(), list->end(), apply);
-    if (is_nonholonomic(model)) std::ranges::for_each(model.algebroid.of[0].fibre, apply);
-    if (model.control) std::for_each(model.control->controls.begin(), model.control->controls.end(), apply);
-    for (FirstOrderState& state : model.states) apply(state.symbol);
-    for (Input& input : model.inputs) apply(input.symbol);
+    });
     if (!found) note(model, about);
 }
 
 /// True for a single entry of a family, or of an observable that is a vector.
-bool is_entry(const Model& model, const std::string& name)
+bool is_entry(Model& model, const std::string& name)
 {
-    const auto is_named = [&](const auto& each) { return names_entry(name, each.name); };
-    const auto has_name = [&](const auto& each) { return is_named(each.symbol); };
-    bool found = std::ranges::any_of(model.parameters, has_name) || std::ranges::any_of(model.states, has_name) ||
-                 std::ranges::any_of(model.inputs, has_name);
-    for (const auto* list : {&model.base.coordinates, &model.fibre.coordinates, &model.fibre.momenta})
-        found = found || std::any_of(list->begin(), list->end(), is_named);
-    if (model.control) found = found || std::ranges::any_of(model.control->controls, is_named);
+    bool found = false;
+    for_each_symbol(model, [&](const Symbol& symbol) { found = found || names_entry(name, symbol.name); });
     for (const auto* list : {&model.observables, &model.invariants, &model.base.casimirs})
-        found = found || std::any_of(list->begin(), list->end(), is_named);
+        for (const NamedTree& each : *list) found = found || names_entry(name, each.name);
     return found;
 }
 
 } // namespace
 
-void read_about(ModelReader& reader, const TomlEntry* block)
+void read_about(ModelReader& reader)
 {
-    if (block == nullptr) return;
-    const TableReader blocks(block->value, "[about]");
     Model& model = reader.model;
     std::vector<std::string> known = reader.names.order();
     known.emplace_back("t");
     for (const auto& [key, value] : reader.invariants) known.push_back(key.text);
     std::vector<Symbol> entries;
-    for (const TomlEntry& entry : block->value.entries) {
-        Symbol about = read_entry(entry);
-        const bool family = std::find(known.begin(), known.end(), about.name) != known.end();
-        if (!family && !is_entry(model, about.name)) {
-            throw ModelError(fmt::format("[about] describes '{}', which the model does not declare", entry.name()),
-                             entry.where(), hint_for(entry.name(), known, "names"));
-        }
+    for (const Item& item : reader.at("about").items()) {
+        const Symbol about = read_entry(item);
+        const bool family = std::ranges::find(known, about.name) != known.end();
+        if (!family && !is_entry(model, about.name))
+            throw complain::names_no("[about]", item.name(), "name of the model", item.where(),
+                                     hint_for(item.name(), known, "names"));
         // What is said of an entry wins over what is said of its family, wherever it stands.
-        if (family) {
+        if (family)
             describe(model, about);
-        } else {
-            entries.push_back(std::move(about));
-        }
+        else
+            entries.push_back(about);
     }
     for (const Symbol& about : entries) describe(model, about);
 }

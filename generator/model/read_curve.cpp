@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+/// Curves as they are written, and the [scene.NAME.plot] blocks, once all scenes are read: a picture may be like that
+/// of a scene further below.
 #include "model/read_curve.hpp"
 
 #include "expression/parse.hpp"
-#include "model/table_reader.hpp"
+#include "model/complaints.hpp"
+#include "model/scene_form.hpp"
+#include "model/scene_reader.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -124,6 +128,117 @@ std::vector<NamedTree> plot_coordinates(const Scene& scene)
             for (const NamedTree& coordinate : curve.coordinates)
                 if (coordinate.name != "t") coordinates.push_back(coordinate);
     return coordinates;
+}
+
+namespace {
+
+/// Pictures are copied along `like`: each is made once.
+class Plots {
+  public:
+    Plots(const ModelReader& reader, const std::vector<Item>& blocks)
+        : reader_(reader), blocks_(blocks), states_(blocks.size(), State::unread), plots_(blocks.size())
+    {
+        for (const Item& block : blocks) names_.push_back(block.name());
+    }
+
+    /// That of scene k; nothing where it has none.
+    const std::optional<Plot>& of(std::size_t k)
+    {
+        if (states_[k] == State::read) return plots_[k];
+        if (states_[k] == State::open)
+            throw complain::like_itself(fmt::format("the plot of scene '{}'", names_[k]), blocks_[k].where());
+        states_[k] = State::open;
+        const Item block = blocks_[k].at("plot");
+        plots_[k] = block ? read(k, block) : liked_by_scene(k);
+        states_[k] = State::read;
+        return plots_[k];
+    }
+
+  private:
+    enum class State { unread, open, read };
+
+    std::size_t index(const std::string& name) const
+    {
+        return static_cast<std::size_t>(std::ranges::find(names_, name) - names_.begin());
+    }
+
+    /// A scene without a picture of its own has that of the scene which it is like.
+    std::optional<Plot> liked_by_scene(std::size_t k)
+    {
+        const Item like = blocks_[k].at("like");
+        return like ? of(index(like.text())) : std::nullopt;
+    }
+
+    Plot liked(std::size_t k, const Item& like)
+    {
+        const std::size_t found = index(like.text());
+        if (found == names_.size())
+            throw complain::names_no(like.title(), like.text(), "scene", like.value().where,
+                                     hint_for(like.text(), names_, "scenes"));
+        const std::optional<Plot>& plot = of(found);
+        if (!plot)
+            throw complain::needs(fmt::format("the plot of scene '{}'", names_[k]),
+                                  fmt::format("one of scene '{}'", like.text()), like.value().where,
+                                  fmt::format("add [scene.{}.plot] with curves", like.text()));
+        return *plot;
+    }
+
+    std::vector<PlotCurve> curves_in(const std::vector<Excerpt>& texts) const
+    {
+        std::vector<PlotCurve> curves;
+        for (const Excerpt& text : texts)
+            for (PlotCurve& curve : read_curve(reader_.model, reader_.arrows, text)) curves.push_back(std::move(curve));
+        return curves;
+    }
+
+    /// A string is a panel, and so is a list of strings.
+    void read_panels(Plot& plot, const Item& given) const
+    {
+        plot.panels.clear();
+        for (const TomlValue& item : given.value().items) {
+            std::vector<Excerpt> texts;
+            if (item.kind == TomlKind::string) texts.push_back(item.text);
+            for (const TomlValue& each : item.items) texts.push_back(each.text);
+            std::vector<PlotCurve> curves = curves_in(texts);
+            if (curves.empty()) throw complain::needs("a panel of " + given.title(), "a curve", item.where);
+            add_panel(plot, std::move(curves));
+        }
+    }
+
+    Plot read(std::size_t k, const Item& block)
+    {
+        Plot plot;
+        if (const Item like = block.at("like")) plot = liked(k, like);
+        if (const Item given = block.at("curves")) read_panels(plot, given);
+        if (const Item given = block.at("equal")) plot.equal = given.value().boolean;
+        if (const Item given = block.at("points")) plot.points = given.value().boolean;
+        const Item sphere = block.at("sphere");
+        if (sphere) plot.sphere = sphere.value().boolean;
+        if (plot.panels.empty()) throw complain::missing(block.title(), {"curves"}, block.where(), block.row().hint);
+        if (sphere && std::ranges::none_of(plot.panels, is_in_space))
+            throw complain::needs(sphere.title(), "a curve in space", sphere.where(),
+                                  "a curve in space has three coordinates: \"x:y:z\"");
+        return plot;
+    }
+
+    const ModelReader& reader_;
+    const std::vector<Item>& blocks_;
+    std::vector<std::string> names_;
+    std::vector<State> states_;
+    std::vector<std::optional<Plot>> plots_;
+};
+
+} // namespace
+
+void read_plots(ModelReader& reader, const std::vector<Item>& blocks)
+{
+    Plots plots(reader, blocks);
+    for (std::size_t k = 0; k < blocks.size(); ++k) {
+        Scene& scene = reader.model.scenes[k];
+        saying_which(scene.name, [&] { scene.plot = plots.of(k); });
+        if (scene.plot && !forms_of(reader.model).empty())
+            require_values_in(reader.model, scene, form_of(reader.model, scene));
+    }
 }
 
 } // namespace lagen

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// [forms]: E-forms by their components, and what is claimed of them.
+/// [forms]: E-forms by their components, and what is claimed of them: expressions in forms, that is names of forms,
+/// d(A), wedge(A, B, ..), i(s, A), sums, and products with functions. A section s is the name of a fibre coordinate,
+/// for the basis section e_s, or a vector of r components.
 #include "expression/find_part.hpp"
-#include "model/algebroid_draft.hpp"
+#include "model/complaints.hpp"
 #include "model/families.hpp"
-#include "model/model_reader.hpp"
 #include "model/read_values.hpp"
-#include "model/table_reader.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -14,8 +14,6 @@
 namespace lagen {
 
 namespace {
-
-// Expressions in forms: names of forms, d(A), wedge(A, B, ..), i(s, A), sums, and products with functions.
 
 using Kind = FormExpression::Kind;
 
@@ -28,9 +26,8 @@ void require_few_components(std::size_t degree, std::size_t rank, const std::str
     for (std::size_t k = 0; k < std::min(degree, rank - std::min(degree, rank)); ++k) {
         count = count * (rank - k) / (k + 1);
         if (count > most_components)
-            throw ModelError(fmt::format("{} has degree {} over {} fibre coordinates, which is more than {} components",
-                                         what, degree, rank, most_components),
-                             where);
+            throw complain::too_many(fmt::format("{} of degree {}", what, degree), count, "components", most_components,
+                                     where);
     }
 }
 
@@ -98,7 +95,7 @@ class FormReader {
     {
         require_function(tree, what_);
         FormExpression result;
-        result.function = reader_.close(tree, {Role::parameter, Role::base}, what_);
+        result.function = reader_.scalar(tree, Role::parameter | Role::base, what_);
         return result;
     }
 
@@ -115,30 +112,45 @@ class FormReader {
     {
         FormExpression result;
         result.kind = Kind::sum;
-        for (const Tree& term : tree->arguments) {
-            result.parts.push_back(read(term));
-            if (result.parts.back().degree != result.parts.front().degree)
-                throw ModelError(fmt::format("{} adds forms of the degrees {} and {}", what_,
-                                             result.parts.front().degree, result.parts.back().degree),
-                                 term->where);
-        }
+        result.parts = read_all(tree);
         result.degree = result.parts.front().degree;
+        for (std::size_t k = 0; k < result.parts.size(); ++k)
+            if (result.parts[k].degree != result.degree)
+                throw ModelError(
+                    fmt::format("{} adds forms of the degrees {} and {}", what_, result.degree, result.parts[k].degree),
+                    tree->arguments[k]->where);
+        return result;
+    }
+
+    /// A product of functions and one form is one, too.
+    [[nodiscard]] FormExpression wedge(const Tree& tree) const
+    {
+        FormExpression result;
+        result.kind = Kind::wedge;
+        result.parts = read_all(tree);
+        for (const FormExpression& part : result.parts) result.degree += part.degree;
         return result;
     }
 
     /// A wedge product, where one factor at most is no function.
     [[nodiscard]] FormExpression product(const Tree& tree) const
     {
-        FormExpression result;
-        result.kind = Kind::wedge;
-        for (const Tree& factor : tree->arguments) {
-            result.parts.push_back(read(factor));
-            if (result.degree > 0 && result.parts.back().degree > 0)
-                throw ModelError(fmt::format("{} multiplies two forms", what_), factor->where,
+        FormExpression result = wedge(tree);
+        bool has_form = false;
+        for (std::size_t k = 0; k < result.parts.size(); ++k) {
+            if (has_form && result.parts[k].degree > 0)
+                throw ModelError(fmt::format("{} multiplies two forms", what_), tree->arguments[k]->where,
                                  "the product of forms is wedge(A, B)");
-            result.degree += result.parts.back().degree;
+            has_form = has_form || result.parts[k].degree > 0;
         }
         return result;
+    }
+
+    [[nodiscard]] std::vector<FormExpression> read_all(const Tree& tree) const
+    {
+        std::vector<FormExpression> parts;
+        for (const Tree& argument : tree->arguments) parts.push_back(read(argument));
+        return parts;
     }
 
     [[nodiscard]] FormExpression quotient(const Tree& tree) const
@@ -171,13 +183,7 @@ class FormReader {
         }
         if (tree->name == "wedge") {
             require_arguments(tree, count >= 2, "wedge(A, B)");
-            FormExpression result;
-            result.kind = Kind::wedge;
-            for (const Tree& factor : tree->arguments) {
-                result.parts.push_back(read(factor));
-                result.degree += result.parts.back().degree;
-            }
-            return result;
+            return wedge(tree);
         }
         if (tree->name != "i") return function(tree);
         require_arguments(tree, count == 2, "i(s, A) is the contraction of the form A with the section s");
@@ -204,11 +210,11 @@ class FormReader {
         }
         const std::string what = "the section of " + what_;
         require_function(tree, what);
-        const ArrayValue value = reader_.close_array(tree, {Role::parameter, Role::base}, what);
+        const ArrayValue value = reader_.close(tree, Role::parameter | Role::base, what);
         if (value.shape.rank == Rank::scalar)
-            throw ModelError(
-                fmt::format("{} is one number or function, where {} components are required", what, fibre.size()),
-                tree->where, "i(w, A) has the name of a fibre coordinate, i([f, g, ..], A) all components");
+            throw complain::is_not(what, "one number or function",
+                                   fmt::format("a vector of {} components", fibre.size()), tree->where,
+                                   "i(w, A) has the name of a fibre coordinate, i([f, g, ..], A) all components");
         return fit_values(value, {Rank::vector, fibre.size(), 1}, what, tree->where);
     }
 
@@ -216,122 +222,79 @@ class FormReader {
     const std::string& what_;
 };
 
-/// Once the forms of the model are read. A section s is the name of a fibre coordinate, for the basis section e_s, or a
-/// vector of r components. `what` opens messages. Throws ModelError: a sum of different degrees, a product of two
-/// forms, i of a function, an unknown name, a wrong number of arguments.
-FormExpression read_form_expression(const ModelReader& reader, const Tree& tree, const std::string& what)
-{
-    return FormReader(reader, what).read(tree);
-}
-
-constexpr const char* example = "for example A = { degree = 1, a = \"x\" }, F = { degree = 2, \"a,b\" = \"x\" }";
-
-bool is_claim(const std::string& key)
-{
-    return key == "degree" || key == "closed" || key == "equals";
-}
-
 /// The fibre coordinates of a key "a,b", as many as the degree and all different.
-std::vector<std::size_t> read_indices(const ModelReader& reader, const NamedForm& form, const TomlEntry& entry)
+std::vector<std::size_t> read_indices(const ModelReader& reader, const NamedForm& form, const Item& item,
+                                      const std::string& title)
 {
-    const std::string title = fmt::format("the form '{}'", form.name);
     const std::vector<Symbol>& fibre = reader.model.fibre.coordinates;
     std::vector<std::size_t> indices;
-    for (const Excerpt& side : sides_of(entry.key)) {
-        const ResolvedKey key = require_key(fibre, side, title, "fibre coordinate", &reader.model.scope);
-        if (key.shape.rank != Rank::scalar)
-            throw ModelError(
-                fmt::format("{} names the family '{}', where one fibre coordinate is required", title, key.name),
-                side.range(0, side.text.size()));
-        if (std::ranges::find(indices, key.indices[0]) != indices.end())
-            throw ModelError(fmt::format("the component '{}' of {} names '{}' twice", entry.name(), title, key.name),
-                             entry.where(), "e ^ e = 0; leave it out");
-        indices.push_back(key.indices[0]);
+    for (const Excerpt& side : sides_of(item.key())) {
+        const std::size_t index = require_entry(fibre, side, title, "fibre coordinate", &reader.model.scope);
+        if (std::ranges::find(indices, index) != indices.end())
+            throw complain::names_twice(item.title(), fibre[index].name, item.where(), "e ^ e = 0; leave it out");
+        indices.push_back(index);
     }
     if (indices.size() != form.degree)
-        throw ModelError(fmt::format("the component '{}' of {} has {} {}, where a form of degree {} needs {}",
-                                     entry.name(), title, indices.size(), indices.size() == 1 ? "index" : "indices",
-                                     form.degree, form.degree),
-                         entry.where(), example);
+        throw complain::wrong_number("indices of " + item.title(), indices.size(), title, form.degree, item.where(),
+                                     "as many as its degree");
     return indices;
 }
 
-Tree read_component(const ModelReader& reader, const TomlEntry& entry, const std::string& what)
-{
-    return reader.close(read_expression(entry.value, what), {Role::parameter, Role::base}, what);
-}
-
-void read_components(const ModelReader& reader, NamedForm& form, const TomlEntry& block)
-{
-    std::set<std::vector<std::size_t>> seen;
-    for (const TomlEntry& entry : block.value.entries) {
-        if (is_claim(entry.name())) continue;
-        const std::string what = fmt::format("the component '{}' of the form '{}'", entry.name(), form.name);
-        std::vector<std::size_t> indices;
-        if (form.degree > 0)
-            indices = read_indices(reader, form, entry);
-        else if (entry.name() != "value")
-            throw ModelError(fmt::format("the form '{}' of degree 0 has the key '{}'", form.name, entry.name()),
-                             entry.where(), "a form of degree 0 is a function: value = \"..\"");
-        std::vector<std::size_t> sorted = indices;
-        std::ranges::sort(sorted);
-        if (!seen.insert(sorted).second)
-            throw ModelError(fmt::format("{} is given twice", what), entry.where(),
-                             "one order of the indices gives the others, up to a sign");
-        form.components.push_back({std::move(indices), read_component(reader, entry, what)});
-    }
-}
-
-NamedForm read_form(const ModelReader& reader, const TomlEntry& block)
+NamedForm read_form(const ModelReader& reader, const Item& block)
 {
     NamedForm form;
     form.name = block.name();
     form.where = block.where();
-    const TableReader table(block.value, fmt::format("the form '{}'", form.name), example);
     const std::size_t r = reader.model.fibre.coordinates.size();
-    const auto entry = [&](const char* key) { return find_entry(block.value, key); };
-    const TomlEntry* degree = entry("degree");
-    if (degree == nullptr)
-        throw ModelError(fmt::format("the form '{}' has no degree", form.name), block.where(), example);
-    form.degree = static_cast<std::size_t>(
-        read_count(degree->value, fmt::format("the degree of the form '{}'", form.name), 0, static_cast<long>(r)));
-    require_few_components(form.degree, r, fmt::format("the form '{}'", form.name), degree->value.where);
-    read_components(reader, form, block);
-    if (const TomlEntry* closed = entry("closed")) {
-        form.closed = read_flag(closed->value, fmt::format("'closed' of the form '{}'", form.name));
+    const Item degree = block.at("degree");
+    if (degree.value().integer > static_cast<long>(r))
+        throw complain::is_not(degree.title(), degree.value().integer, fmt::format("an integer from 0 to {}", r),
+                               degree.value().where);
+    form.degree = static_cast<std::size_t>(degree.value().integer);
+    require_few_components(form.degree, r, block.title(), degree.value().where);
+    std::set<std::vector<std::size_t>> seen;
+    for (const Item& item : block.items()) {
+        if (!item.row().path.ends_with('*')) continue; // the degree, or a claim
+        std::vector<std::size_t> indices;
+        if (form.degree > 0)
+            indices = read_indices(reader, form, item, block.title());
+        else if (item.name() != "value")
+            throw complain::takes_no(block.title() + " of degree 0", item.name(), item.where(),
+                                     "a form of degree 0 is a function: value = \"..\"");
+        std::vector<std::size_t> sorted = indices;
+        std::ranges::sort(sorted);
+        if (!seen.insert(sorted).second)
+            throw complain::twice(item.title(), item.where(),
+                                  "one order of the indices gives the others, up to a sign");
+        form.components.push_back({std::move(indices), reader.scalar(item)});
+    }
+    if (const Item closed = block.at("closed")) {
+        form.closed = closed.value().boolean;
         if (!form.closed)
-            throw ModelError(fmt::format("the form '{}' claims closed = false", form.name), closed->value.where,
-                             "leave it out: without a claim `check` says whether the form is closed");
-        require_few_components(form.degree + 1, r, fmt::format("d of the form '{}'", form.name), closed->value.where);
+            throw complain::is_not(closed.title(), "false", "a claim", closed.value().where,
+                                   "leave it out: without a claim `check` says whether the form is closed");
+        require_few_components(form.degree + 1, r, "d of " + block.title(), closed.value().where);
     }
     return form;
 }
 
 } // namespace
 
-void declare_forms(ModelReader& reader, const TomlEntry* block)
+void read_forms(ModelReader& reader)
 {
-    if (block == nullptr) return;
-    refuse_nonholonomic(reader, *block);
-    const TableReader table(block->value, "[forms]", example);
-    for (const TomlEntry& entry : block->value.entries) reader.names.declare(entry.name(), Role::form, entry.where());
-}
-
-void read_forms(ModelReader& reader, const TomlEntry* block)
-{
-    if (block == nullptr) return;
-    for (const TomlEntry& entry : block->value.entries) reader.model.forms.push_back(read_form(reader, entry));
-    // A claim may name any form, in whatever order they stand.
-    for (std::size_t k = 0; k < reader.model.forms.size(); ++k) {
-        NamedForm& form = reader.model.forms[k];
-        const TomlEntry* equals = find_entry(block->value.entries[k].value, "equals");
-        if (equals == nullptr) continue;
-        const std::string what = fmt::format("'equals' of the form '{}'", form.name);
-        FormExpression expression = read_form_expression(reader, read_expression(equals->value, what), what);
+    const Item block = reader.at("forms");
+    if (!block) return;
+    refuse_nonholonomic(reader, block);
+    std::vector<NamedForm>& forms = reader.model.forms;
+    for (const Item& item : block.items()) forms.push_back(read_form(reader, item));
+    for (NamedForm& form : forms) { // a claim may name any form, in whatever order they stand
+        const Item equals = block.at(form.name).at("equals");
+        if (!equals) continue;
+        FormExpression expression =
+            FormReader(reader, equals.title()).read(read_expression(equals.value(), equals.title()));
         if (expression.degree != form.degree)
-            throw ModelError(
-                fmt::format("{} has degree {}, where the form has degree {}", what, expression.degree, form.degree),
-                equals->value.where);
+            throw complain::is_not(fmt::format("the degree of {}", equals.title()), expression.degree,
+                                   fmt::format("the degree of the form ({})", form.degree), equals.value().where);
         form.equals = std::move(expression);
     }
 }

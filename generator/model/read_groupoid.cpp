@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The [groupoid] block: its kind and its group first (the rank of its algebroid depends on them), the coordinates of
-/// an arrow and the action once expressions can be closed.
+/// an arrow and the action once expressions can be closed. The [reconstruct] block: `R = "SO(3)"`, matrices of named
+/// groups with g' = g xi, whose entries are first-order states.
 #include "model/algebroid_draft.hpp"
 
 #include "algebra/named_algebra.hpp"
+#include "model/complaints.hpp"
 #include "model/families.hpp"
 #include "model/read_values.hpp"
-#include "model/table_reader.hpp"
 #include "text/comma_list.hpp"
 
 #include <algorithm>
@@ -16,59 +17,17 @@ namespace lagen {
 
 namespace {
 
-struct GroupoidRow {
-    const char* name;
-    GroupoidKind kind;
-    std::array<const char*, 4> keys; ///< besides `kind`
-};
-
-constexpr GroupoidRow groupoid_rows[] = {
-    {"pair", GroupoidKind::pair, {}},
-    {"group", GroupoidKind::group, {"group", "generators", "element"}},
-    {"action", GroupoidKind::action, {"group", "generators", "element", "action"}},
-    {"atiyah", GroupoidKind::atiyah, {"group", "generators", "element"}},
-};
-
-/// How messages call an entry of the block.
-std::string title_of(const TomlEntry& entry)
-{
-    return fmt::format("'{}' of [groupoid]", entry.name());
-}
-
-const GroupoidRow& read_groupoid_kind(const TomlEntry& block, const TomlEntry* entry)
-{
-    std::vector<std::string> known;
-    for (const GroupoidRow& row : groupoid_rows) known.emplace_back(row.name);
-    if (entry == nullptr)
-        throw ModelError("[groupoid] has no key 'kind'", block.where(), fmt::format("kinds: {}", comma_list(known)));
-    const std::string text = read_text(entry->value, title_of(*entry));
-    for (const GroupoidRow& row : groupoid_rows)
-        if (text == row.name) return row;
-    throw ModelError(fmt::format("unknown groupoid kind '{}'", text), entry->value.where,
-                     hint_for(text, known, "kinds"));
-}
-
-void require_keys_of_kind(const TomlEntry& block, const GroupoidRow& row)
-{
-    for (const TomlEntry& entry : block.value.entries) {
-        const auto is_key = [&](const char* key) { return key != nullptr && entry.name() == key; };
-        if (entry.name() == "kind" || std::ranges::any_of(row.keys, is_key)) continue;
-        throw ModelError(fmt::format("a groupoid of kind '{}' takes no '{}'", row.name, entry.name()), entry.where());
-    }
-}
-
 /// A group lies over a point, the others over M.
-void require_base_of_kind(const ModelReader& reader, const TomlEntry& block, const GroupoidRow& row)
+void require_base_of_kind(const ModelReader& reader, const Item& block, GroupoidKind kind)
 {
     const std::vector<Symbol>& base = reader.model.base.coordinates;
-    if (row.kind == GroupoidKind::group && !base.empty())
+    if (kind == GroupoidKind::group && !base.empty())
         throw ModelError(
             fmt::format("a group is a groupoid over a point, but the base coordinate '{}' is declared", base[0].name),
             block.where(), "a group that moves the points of a base is a groupoid of kind \"action\"");
-    if (row.kind != GroupoidKind::group && base.empty())
-        throw ModelError(
-            fmt::format("a groupoid of kind '{}' lies over a base, but no base coordinate is declared", row.name),
-            block.where(), "[base] coordinates = [\"x\", \"y\"]");
+    if (kind != GroupoidKind::group && base.empty())
+        throw complain::needs(fmt::format("a groupoid of kind '{}'", block.at("kind").text()), "base coordinates",
+                              block.where(), "[base] coordinates = [\"x\", \"y\"]");
 }
 
 std::string group_meant(std::string name)
@@ -87,10 +46,10 @@ ArrayValue basis_matrix(const SparseMatrix& matrix, std::size_t size, const Sour
 
 } // namespace
 
-void read_named_group(const ModelReader& reader, GroupoidBlock& block, const TomlEntry& entry, const std::string& what)
+void read_named_group(const ModelReader& reader, GroupoidBlock& block, const Item& item)
 {
-    block.group = with_sizes(read_text(entry.value, what), reader.model.sizes);
-    block.group_where = entry.value.where;
+    block.group = with_sizes(item.text(), reader.model.sizes);
+    block.group_where = item.value().where;
     const std::optional<NamedAlgebra> algebra = algebra_of_group(block.group);
     if (!algebra) {
         const std::string near = group_meant(block.group);
@@ -107,55 +66,26 @@ void read_named_group(const ModelReader& reader, GroupoidBlock& block, const Tom
 
 namespace {
 
-/// Their number now, for the rank of the algebroid; their entries when expressions can be closed.
-void count_generators(GroupoidBlock& block, const TomlEntry& entry)
-{
-    block.group_where = entry.value.where;
-    if (entry.value.kind != TomlKind::array || entry.value.items.empty())
-        throw ModelError(
-            fmt::format("'generators' of [groupoid] is {}, where a list of matrices is required",
-                        entry.value.kind == TomlKind::array ? "an empty array" : kind_text(entry.value.kind)),
-            entry.value.where, "generators = [[[0, -1], [1, 0]]], one matrix a section");
-    if (entry.value.items.size() > named_algebra_rank_limit)
-        throw ModelError(fmt::format("the number of generators is {}, more than {}", entry.value.items.size(),
-                                     named_algebra_rank_limit),
-                         entry.value.where);
-    block.generators.resize(entry.value.items.size());
-}
-
-void read_group(const ModelReader& reader, GroupoidBlock& block, const TomlEntry& table)
-{
-    const TomlEntry* group = find_entry(table.value, "group");
-    const TomlEntry* generators = find_entry(table.value, "generators");
-    if (group != nullptr && generators != nullptr)
-        throw ModelError("[groupoid] gives both 'group' and 'generators'", generators->where(), "keep one of them");
-    if (group == nullptr && generators == nullptr)
-        throw ModelError("[groupoid] needs 'group' or 'generators'", table.where(),
-                         "group = \"SO(3)\", or generators = [E_1, ..], one matrix a section");
-    if (group != nullptr) return read_named_group(reader, block, *group, title_of(*group));
-    count_generators(block, *generators);
-}
-
-void close_generators(ModelReader& reader, GroupoidBlock& block, const TomlEntry& entry)
+void close_generators(ModelReader& reader, GroupoidBlock& block, const Item& generators)
 {
     for (std::size_t c = 0; c < block.generators.size(); ++c) {
-        const TomlValue& item = entry.value.items[c];
+        const TomlValue& item = generators.value().items[c];
         const std::string what = fmt::format("the generator number {}", c + 1);
-        ArrayValue matrix = reader.close_array(read_array_expression(item, what), {Role::parameter}, what);
+        ArrayValue matrix = reader.close(read_array_expression(item, what), Role::parameter, what);
         const bool square = matrix.shape.rank == Rank::matrix && matrix.shape.rows == matrix.shape.columns;
         if (!square || (c > 0 && !(matrix.shape == block.generators[0].shape)))
-            throw ModelError(fmt::format("{} is {}, where {} is required", what, to_text(matrix.shape),
-                                         square ? to_text(block.generators[0].shape) : "a square matrix"),
-                             item.where, square ? "all generators have the size of the first" : "");
+            throw complain::is_not(what, to_text(matrix.shape),
+                                   square ? to_text(block.generators[0].shape) : "a square matrix", item.where,
+                                   square ? "all generators have the size of the first" : "");
         block.generators[c] = std::move(matrix);
     }
 }
 
-void declare_element(ModelReader& reader, const TomlEntry* entry)
+void declare_element(ModelReader& reader, const Item& item)
 {
     const Shape shape = reader.model.groupoid->generators[0].shape;
-    const std::string name = entry != nullptr ? read_text(entry->value, title_of(*entry)) : "W";
-    const SourceRange where = entry != nullptr ? entry->value.where : reader.model.groupoid->where;
+    const std::string name = item ? item.text() : "W";
+    const SourceRange where = item ? item.value().where : reader.model.groupoid->where;
     require_identifier(name, where, "the name of the group element");
     std::vector<Symbol> symbols;
     for (std::size_t k = 0; k < shape.size(); ++k)
@@ -171,15 +101,14 @@ void declare_targets(ModelReader& reader)
     declare_symbols(reader, symbols, Role::next);
 }
 
-/// Of models that give [algebroid] too.
+/// A model may give [algebroid] too.
 void require_rank_of_groupoid(const Model& model)
 {
     const std::size_t rank = rank_of(*model.groupoid, model.base.coordinates.size());
     const std::size_t found = model.fibre.coordinates.size();
-    if (rank == found) return;
-    throw ModelError(
-        fmt::format("the number of fibre coordinates is {}, where the groupoid has sections: {}", found, rank),
-        model.groupoid->where, "one a base coordinate (pair, atiyah), then one a generator of the group");
+    if (rank != found)
+        throw complain::wrong_number("fibre coordinates", found, "the groupoid", rank, model.groupoid->where,
+                                     "one a base coordinate (pair, atiyah), then one a generator of the group");
 }
 
 } // namespace
@@ -191,31 +120,30 @@ std::size_t rank_of(const GroupoidBlock& block, std::size_t n)
 
 void declare_groupoid(ModelReader& reader)
 {
-    if (reader.groupoid == nullptr) return;
-    const TomlEntry& entry = *reader.groupoid;
-    TableReader table(entry.value, "[groupoid]");
-    const GroupoidRow& row = read_groupoid_kind(entry, table.take("kind"));
-    for (const char* key : {"group", "generators", "element", "action"}) (void)table.take(key);
-    table.finish();
-    require_keys_of_kind(entry, row);
-    require_base_of_kind(reader, entry, row);
-    GroupoidBlock block;
-    block.kind = row.kind;
-    block.where = entry.where();
-    if (block.has_group()) read_group(reader, block, entry);
-    reader.model.groupoid = std::move(block);
+    const Item block = reader.at("groupoid");
+    if (!block) return;
+    GroupoidBlock groupoid;
+    groupoid.where = block.where();
+    groupoid.kind = static_cast<GroupoidKind>(place_of_kind("groupoid", block.at("kind").text()));
+    require_base_of_kind(reader, block, groupoid.kind);
+    if (const Item group = block.at("group")) read_named_group(reader, groupoid, group);
+    if (const Item generators = block.at("generators")) { // their entries are read when expressions can be closed
+        groupoid.group_where = generators.value().where;
+        groupoid.generators.resize(generators.value().items.size());
+        if (groupoid.generators.size() > named_algebra_rank_limit)
+            throw complain::too_many(generators.title(), groupoid.generators.size(), "matrices",
+                                     named_algebra_rank_limit, groupoid.group_where);
+    }
+    reader.model.groupoid = std::move(groupoid);
 }
 
 void declare_arrows(ModelReader& reader)
 {
     if (!reader.model.groupoid) return;
     GroupoidBlock& block = *reader.model.groupoid;
-    const auto entry = [&](const char* key) {
-        return reader.groupoid == nullptr ? nullptr : find_entry(reader.groupoid->value, key);
-    };
-    if (const TomlEntry* generators = entry("generators")) close_generators(reader, block, *generators);
+    if (const Item generators = reader.at("groupoid").at("generators")) close_generators(reader, block, generators);
     require_rank_of_groupoid(reader.model);
-    if (block.has_group()) declare_element(reader, entry("element"));
+    if (block.has_group()) declare_element(reader, reader.at("groupoid").at("element"));
     if (block.has_targets()) declare_targets(reader);
 }
 
@@ -224,31 +152,98 @@ void read_action(ModelReader& reader)
     if (!reader.model.groupoid || reader.model.groupoid->kind != GroupoidKind::action) return;
     GroupoidBlock& block = *reader.model.groupoid;
     const std::vector<Symbol>& base = reader.model.base.coordinates;
-    const TomlEntry* action = find_entry(reader.groupoid->value, "action");
-    if (action == nullptr)
-        throw ModelError("a groupoid of kind 'action' needs 'action'", block.where,
-                         "action = { x = \"..\" }, the right action x.W, a line a base coordinate");
-    const TableReader table(action->value, title_of(*action));
+    const Item action = reader.at("groupoid").at("action");
     block.action.resize(base.size());
-    for (const TomlEntry& entry : action->value.entries) {
-        const ResolvedKey key = require_key(base, entry.key, table.title(), "base coordinate", &reader.model.scope);
-        const std::string what = fmt::format("the action on '{}'", key.name);
-        const ArrayValue closed = reader.close_arrow(read_array_expression(entry.value, what),
-                                                     {Role::parameter, Role::base, Role::element}, what);
-        const std::vector<Tree> values = fit_values(closed, key.shape, what, entry.value.where);
-        for (std::size_t k = 0; k < values.size(); ++k) {
-            Tree& place = block.action[key.indices[k]];
-            if (place)
-                throw ModelError(fmt::format("the action on '{}' is given twice", base[key.indices[k]].name),
-                                 entry.where(), "keep one of them");
-            place = values[k];
-        }
-    }
+    reader.read_values(action, base, "base coordinate",
+                       [&](std::size_t i, const Tree& value, const Item&) { block.action[i] = value; });
     for (std::size_t i = 0; i < base.size(); ++i)
         if (!block.action[i])
-            throw ModelError(fmt::format("the action leaves out the base coordinate '{}'", base[i].name),
-                             action->where(),
-                             fmt::format("a coordinate that does not move is written {0} = \"{0}\"", base[i].name));
+            throw complain::leaves_out(
+                "the action", fmt::format("the base coordinate '{}'", base[i].name), action.where(),
+                fmt::format("a coordinate that does not move is written {0} = \"{0}\"", base[i].name));
+}
+
+namespace {
+
+/// The first of the sections that xi has components on, or nothing where the algebroid has none.
+std::optional<std::size_t> first_vertical(const Model& model)
+{
+    const std::size_t n = model.base.coordinates.size();
+    switch (model.algebroid.kind) {
+    case AlgebroidKind::lie_algebra:
+    case AlgebroidKind::action: return 0;
+    case AlgebroidKind::atiyah: return n;
+    case AlgebroidKind::groupoid:
+        if (!model.groupoid->has_group()) return std::nullopt;
+        return model.groupoid->has_targets() ? n : 0;
+    default: return std::nullopt;
+    }
+}
+
+/// xi^c: the fibre coordinate, less A^c_i xdot^i.
+Tree velocity_on(const Model& model, std::size_t section)
+{
+    std::vector<Tree> terms{name(model.fibre.coordinates[section].name)};
+    for (const ConnectionEntry& entry : model.algebroid.connection)
+        if (entry.section == section)
+            terms.push_back(negate(product_of(entry.value, name(model.fibre.coordinates[entry.coordinate].name))));
+    return sum_of(terms);
+}
+
+/// (g xi)_ij = g_ik xi^c (E_c)_kj, by rows.
+void set_rates(Model& model, const Reconstruction& g)
+{
+    const std::size_t n = g.size;
+    std::vector<std::vector<Tree>> xi(n * n);
+    for (std::size_t c = 0; c < g.generators.size(); ++c) {
+        const Tree velocity = velocity_on(model, g.first_section + c);
+        for (std::size_t k = 0; k < n * n; ++k)
+            if (const Tree& entry = g.generators[c].entries[k]; entry->number != 0)
+                xi[k].push_back(product_of(entry, velocity));
+    }
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j < n; ++j) {
+            std::vector<Tree> terms;
+            for (std::size_t k = 0; k < n; ++k)
+                for (const Tree& each : xi[k * n + j])
+                    terms.push_back(product_of(name(model.states[g.first + i * n + k].symbol.name), each));
+            model.states[g.first + i * n + j].rate = sum_of(terms);
+        }
+}
+
+} // namespace
+
+void declare_reconstructions(ModelReader& reader)
+{
+    const Item block = reader.at("reconstruct");
+    if (!block) return;
+    Model& model = reader.model;
+    const std::optional<std::size_t> first = first_vertical(model);
+    if (!first)
+        throw complain::needs(block.title(), "an algebroid whose fibre is a Lie algebra, wholly or in part",
+                              block.where(), "kinds: lie_algebra, action, atiyah");
+    for (const Item& item : block.items()) {
+        require_identifier(item.name(), item.where(), "a name");
+        GroupoidBlock group;
+        read_named_group(reader, group, item);
+        if (const std::size_t found = model.fibre.coordinates.size() - *first; found != group.generators.size())
+            throw complain::wrong_number("generators of " + group.group, group.generators.size(), "the algebroid",
+                                         found, group.group_where, "one generator a section, in the order of [fibre]");
+        const Shape& shape = group.generators[0].shape;
+        Reconstruction g{group.group,         group.generators, *first,           shape.rows,
+                         model.states.size(), item.name(),      group.group_where};
+        std::vector<Symbol> symbols;
+        for (std::size_t k = 0; k < shape.size(); ++k)
+            symbols.push_back(Symbol{entry_name(item.name(), shape, k), item.where(), {}, {}, {}});
+        declare_symbols(reader, symbols, Role::state);
+        for (std::size_t k = 0; k < g.size; ++k) model.states[g.first + k * (g.size + 1)].start = 1;
+        model.reconstructions.push_back(std::move(g));
+    }
+}
+
+void read_reconstructions(ModelReader& reader)
+{
+    for (const Reconstruction& g : reader.model.reconstructions) set_rates(reader.model, g);
 }
 
 } // namespace lagen

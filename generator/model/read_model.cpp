@@ -3,11 +3,13 @@
 #include "model/read_model.hpp"
 
 #include "model/algebroid_draft.hpp"
-#include "model/model_reader.hpp"
+#include "model/complaints.hpp"
+#include "model/families.hpp"
 #include "model/read_file.hpp"
-#include "model/table_reader.hpp"
+#include "model/read_values.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <fmt/format.h>
 
 namespace lagen {
@@ -72,88 +74,186 @@ LevelSetFrame frame_of_level_set(const ModelReader& reader, const LevelSetReques
 
 namespace {
 
+void read_header(ModelReader& reader)
+{
+    Model& model = reader.model;
+    if (const Item title = reader.at("title")) model.title = title.text();
+    const Item name = reader.at("name");
+    model.name = name ? name.text() : std::filesystem::path(model.file->name).stem().string();
+    model.name_where = name ? name.value().where : SourceRange{model.file, 0, 0};
+    require_class_name(model.name, model.name_where, !name);
+}
+
+void declare_base(ModelReader& reader)
+{
+    declare_symbols(reader, read_names(reader, reader.at("base").at("coordinates")), Role::base);
+    for (const Item& casimir : reader.at("base").at("casimirs").items()) {
+        reader.names.declare(casimir.name(), Role::casimir, casimir.where());
+        reader.casimirs.emplace_back(casimir.key(), read_expression(casimir.value(), casimir.title()));
+    }
+}
+
+/// "V(q, r)" as a name and its parameters; "T" as a name alone.
+Definition read_definition_key(const Excerpt& key)
+{
+    Definition out;
+    const std::size_t open = key.text.find('(');
+    const Excerpt name = trimmed(key, 0, std::min(open, key.text.size()));
+    out.name = name.text;
+    out.where = name.range(0, name.text.size());
+    if (open == std::string::npos) return out;
+    const Excerpt tail = trimmed(key, open + 1, key.text.size());
+    if (tail.text.empty() || tail.text.back() != ')') {
+        throw ModelError(fmt::format("the definition '{}' has no closing parenthesis at its end", key.text),
+                         key.range(0, key.text.size()), "write \"V(q)\" = \"..\"");
+    }
+    for (const Excerpt& parameter : split_at_commas(trimmed(tail, 0, tail.text.size() - 1))) {
+        const SourceRange where = parameter.range(0, parameter.text.size());
+        require_identifier(parameter.text, where, "the parameter of a function");
+        for (const std::string& earlier : out.parameters) {
+            if (earlier != parameter.text) continue;
+            throw complain::names_twice(fmt::format("the function '{}'", out.name), earlier, where,
+                                        "its parameters differ");
+        }
+        out.parameters.push_back(parameter.text);
+    }
+    return out;
+}
+
+void declare_definitions(ModelReader& reader)
+{
+    for (const Item& item : reader.at("definitions").items()) {
+        Definition definition = read_definition_key(item.key());
+        reader.names.declare(definition.name, Role::definition, definition.where);
+        definition.body = read_expression(item.value(), item.title());
+        reader.model.definitions.push_back(std::move(definition));
+    }
+}
+
+/// The named expressions of a block, parsed.
+std::vector<std::pair<Excerpt, Tree>> read_named(const Item& block)
+{
+    std::vector<std::pair<Excerpt, Tree>> out;
+    for (const Item& item : block.items()) {
+        require_identifier(item.name(), item.where(), "a name");
+        out.emplace_back(item.key(), read_expression(item.value(), item.title()));
+    }
+    return out;
+}
+
+/// An observable may bear the name of a definition only if it is that definition.
+void declare_quantities(ModelReader& reader)
+{
+    reader.observables = read_named(reader.at("observables"));
+    reader.invariants = read_named(reader.at("invariants"));
+    for (const auto& [key, value] : reader.observables) {
+        const Names::Entry* entry = reader.names.find(key.text);
+        const bool same = entry != nullptr && entry->role == Role::definition && value->kind == TreeKind::name &&
+                          value->name == key.text;
+        if (!same) reader.names.declare(key.text, Role::observable, key.range(0, key.text.size()));
+    }
+}
+
+void read_quantities(ModelReader& reader)
+{
+    Model& model = reader.model;
+    for (const auto& [key, value] : reader.observables)
+        append_entries(model.observables, key, reader.arrows.close_array(value, true));
+    for (const auto& [key, value] : reader.invariants)
+        append_entries(model.invariants, key, reader.observer.close_array(value));
+    refuse_inputs_in(model, model.invariants);
+}
+
+void declare_all(ModelReader& reader)
+{
+    read_header(reader);
+    read_sizes(reader);
+    reader.declare_keys(reader.at("parameters"), Role::parameter);
+    declare_base(reader);
+    declare_groupoid(reader);
+    read_algebroid_kind(reader);
+    declare_ambient(reader);
+    declare_fibre(reader);
+    declare_control(reader);
+    reader.declare_keys(reader.at("inputs"), Role::input);
+    reader.declare_keys(reader.at("states"), Role::state);
+    declare_reconstructions(reader);
+    declare_definitions(reader);
+    declare_quantities(reader);
+    declare_mechanics(reader);
+    declare_discrete(reader);
+    for (const Item& form : reader.at("forms").items()) reader.names.declare(form.name(), Role::form, form.where());
+    declare_total_cost(reader);
+    build_scopes(reader);
+}
+
 Model read_with(ModelReader& reader, const std::string& name, std::string text, const std::vector<Setting>& settings,
                 IncludeTrail& trail)
 {
     reader.settings = &settings;
     reader.trail = &trail;
-    reader.model.file = std::make_shared<const SourceFile>(SourceFile{name, std::move(text)});
-    const TomlValue document = parse_toml(reader.model.file);
-    TableReader top(document, "the model");
+    Model& model = reader.model;
+    model.file = std::make_shared<const SourceFile>(SourceFile{name, std::move(text)});
+    reader.document.value = parse_toml(model.file);
     for (const char* key : {"morphism", "compose"})
-        if (const TomlEntry* entry = find_entry(document, key))
-            throw ModelError("this file is a morphism between models, where a model is wanted", entry->where(),
+        if (const Item item = reader.at(key))
+            throw ModelError("this file is a morphism between models, where a model is wanted", item.where(),
                              "`lagen check`, `run` and `reduce` read morphisms");
-    const TomlEntry* model_name = top.take("name");
-    const TomlEntry* title = top.take("title");
-    const TomlEntry* sizes = top.take("sizes");
-    const TomlEntry* parameters = top.take("parameters");
-    const TomlEntry* base = top.take("base");
-    reader.fibre = top.take("fibre");
-    reader.algebroid = top.take("algebroid");
-    reader.groupoid = top.take("groupoid");
-    reader.discrete = top.take("discrete");
-    if (reader.is_tangent) reader.groupoid = reader.discrete = nullptr; // they are about its sections
-    const TomlEntry* definitions = top.take("definitions");
-    reader.mechanics.lagrangian = top.take("lagrangian");
-    reader.mechanics.hamiltonian = top.take("hamiltonian");
-    reader.mechanics.forces = top.take("forces");
-    reader.mechanics.dissipation = top.take("dissipation");
-    reader.mechanics.control = top.take("control");
-    reader.inputs = top.take("inputs");
-    reader.states = top.take("states");
-    reader.reconstruct = top.take("reconstruct");
-    const TomlEntry* observables = top.take("observables");
-    const TomlEntry* invariants = top.take("invariants");
-    const TomlEntry* symmetries = top.take("symmetries");
-    const TomlEntry* forms = top.take("forms");
-    const TomlEntry* hamilton_jacobi = top.take("hamilton_jacobi");
-    const TomlEntry* about = top.take("about");
-    const TomlEntry* scenes = top.take("scene");
-    top.finish();
-
-    read_header(reader, model_name, title, name);
-    read_sizes(reader, sizes, settings);
-    declare_parameters(reader, parameters);
-    declare_base(reader, base);
-    declare_groupoid(reader);
-    read_algebroid_kind(reader, reader.algebroid);
-    declare_ambient(reader);
-    declare_fibre(reader, reader.fibre);
-    declare_control(reader);
-    declare_inputs(reader);
-    declare_states(reader);
-    declare_reconstructions(reader);
-    declare_definitions(reader, definitions);
-    declare_quantities(reader, observables, invariants);
-    declare_mechanics(reader);
-    declare_discrete(reader);
-    declare_forms(reader, forms);
-    declare_total_cost(reader);
-    build_scopes(reader);
-
-    read_parameters(reader, parameters, settings);
-    read_base(reader, base);
-    if (reader.is_probe) return std::move(reader.model);
-    read_inputs(reader);
+    require_shape(Item(reader.document));
+    declare_all(reader);
+    read_parameters(reader);
+    read_base(reader);
+    if (reader.is_probe) return std::move(model);
+    reader.read_declared(reader.at("inputs"), [&](std::size_t k, const Tree& value) { model.inputs[k].value = value; });
     read_mechanics(reader);
-    read_states(reader);
+    reader.read_declared(reader.at("states"), [&](std::size_t k, const Tree& rate) { model.states[k].rate = rate; });
     read_reconstructions(reader);
     read_action(reader);
     read_discrete(reader);
     read_control(reader);
     read_quantities(reader);
-    read_symmetries(reader, symmetries);
-    read_forms(reader, forms);
-    read_hamilton_jacobi(reader, hamilton_jacobi);
-    read_about(reader, about);
-    read_scenes(reader, scenes, settings);
-    reader.model.observer = std::move(reader.observer);
-    reader.model.columns = std::move(reader.arrows);
-    return std::move(reader.model);
+    read_symmetries(reader);
+    read_forms(reader);
+    read_about(reader);
+    read_scenes(reader);
+    model.observer = std::move(reader.observer);
+    model.columns = std::move(reader.arrows);
+    return std::move(model);
 }
 
 } // namespace
+
+void declare_fibre(ModelReader& reader)
+{
+    if (reader.is_probe) return;
+    Fibre& fibre = reader.model.fibre;
+    const Item block = reader.at("fibre");
+    if (const Item coordinates = block.at("coordinates")) {
+        const std::vector<Symbol> names = read_names(reader, coordinates);
+        if (has_constraints_alone(reader))
+            keep_coordinates(reader, names);
+        else
+            declare_symbols(reader, names, Role::fibre);
+        require_rank(reader, coordinates.value().where);
+    } else if (const auto chosen = has_constraints_alone(reader) ? chosen_coordinates(reader) : std::nullopt) {
+        keep_coordinates(reader, *chosen);
+    } else if (const auto standard = default_fibre(reader)) {
+        declare_symbols(reader, *standard, Role::fibre);
+    } else {
+        throw ModelError("the fibre coordinates are missing, one a section of the frame",
+                         block ? block.where() : reader.model.algebroid.where,
+                         "[fibre] coordinates = [\"y1\", \"y2\"]");
+    }
+    const Item given = block.at("momenta");
+    std::vector<Symbol> momenta = read_names(reader, given);
+    if (!given)
+        for (const Symbol& coordinate : fibre.coordinates)
+            momenta.push_back(Symbol{"p_" + coordinate.name, coordinate.where, {}, {}, {}});
+    declare_symbols(reader, momenta, Role::momentum);
+    if (fibre.momenta.size() != fibre.coordinates.size())
+        throw complain::wrong_number("momenta", fibre.momenta.size(), "the fibre", fibre.coordinates.size(),
+                                     given.value().where);
+}
 
 const Scene& find_scene(const Model& model, const std::string& name)
 {

@@ -1,41 +1,132 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Parameter values, settings from the command line, and the base's constraints, Casimirs and domain.
+/// The [sizes] block by exact arithmetic; parameter values, settings from the command line, and the base's constraints,
+/// Casimirs and domain.
 #include "model/model_reader.hpp"
 
 #include "expression/find_part.hpp"
 #include "expression/parse.hpp"
+#include "model/complaints.hpp"
 #include "model/dependency_order.hpp"
 #include "model/families.hpp"
 #include "model/read_values.hpp"
-#include "model/table_reader.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace lagen {
 
 namespace {
 
-/// How a parameter that is given an array is declared.
-std::string family_hint(const std::string& name, const Shape& shape)
+constexpr long largest_size = 4096;
+constexpr std::size_t most_bits = 256; // of what stands between
+
+[[noreturn]] void refuse(const NamedTree& size, const std::string& found, const SourceRange& where,
+                         const char* hint = "sizes are made of integers and other sizes by + - * / ^")
 {
-    if (shape.rank == Rank::vector)
-        return fmt::format("a vector is declared with its range: \"{}[1..{}]\" = ..", name, shape.rows);
-    return fmt::format("a matrix is declared with its ranges: \"{}[1..{},1..{}]\" = ..", name, shape.rows,
-                       shape.columns);
+    throw ModelError(
+        fmt::format("the size '{}' {}, where an integer from 0 to {} is required", size.name, found, largest_size),
+        where.file ? where : size.where, hint);
 }
 
-/// Gives the parameters that `key` names their values.
-void assign(ModelReader& reader, const ResolvedKey& key, const Tree& value, const std::string& what,
-            const SourceRange& where)
+/// Values of expressions over sizes. Parsed trees are at most 1024 levels deep, so plain recursion is safe.
+class SizeArithmetic {
+  public:
+    SizeArithmetic(const std::map<std::string, Rational>& values, const std::vector<NamedTree>& sizes, std::size_t k)
+        : values_(values), sizes_(sizes), size_(sizes[k])
+    {
+    }
+
+    Rational operator()(const TreeNode& node) const
+    {
+        std::vector<Rational> args;
+        for (const Tree& argument : node.arguments) args.push_back((*this)(*argument));
+        Rational value = combine(node, args);
+        const std::size_t bits = bits_of(value);
+        if (bits > most_bits) refuse(size_, fmt::format("passes through a number of {} bits", bits), node.where);
+        return value;
+    }
+
+  private:
+    [[nodiscard]] Rational combine(const TreeNode& node, const std::vector<Rational>& args) const
+    {
+        Rational value = args.empty() ? Rational(0) : args[0];
+        switch (node.kind) {
+        case TreeKind::number: return node.number;
+        case TreeKind::name: return value_of(node);
+        case TreeKind::negate: return -value;
+        case TreeKind::add: return sum(args);
+        case TreeKind::multiply:
+            for (std::size_t k = 1; k < args.size(); ++k) value *= args[k];
+            return value;
+        case TreeKind::divide:
+            if (args[1] == 0) refuse(size_, "divides by zero", node.where);
+            return value / args[1];
+        case TreeKind::power: return raised(value, args[1], node);
+        default: break;
+        }
+        refuse(size_, fmt::format("uses {}", quote(source_text(node.where))), node.where);
+    }
+
+    static Rational sum(const std::vector<Rational>& terms)
+    {
+        Rational value = 0;
+        for (const Rational& term : terms) value += term;
+        return value;
+    }
+
+    [[nodiscard]] Rational value_of(const TreeNode& node) const
+    {
+        const auto place = values_.find(node.name);
+        if (place != values_.end()) return place->second;
+        std::vector<std::string> known;
+        for (const NamedTree& size : sizes_) known.push_back(size.name);
+        throw complain::names_no(fmt::format("the size '{}'", size_.name), node.name, "size", node.where,
+                                 hint_for(node.name, known, "sizes"));
+    }
+
+    [[nodiscard]] Rational raised(const Rational& base, const Rational& exponent, const TreeNode& node) const
+    {
+        constexpr long largest_exponent = 64;
+        if (exponent.get_den() != 1 || exponent < 0 || exponent > largest_exponent)
+            refuse(size_, fmt::format("has the exponent {}", exponent.get_str()), node.where);
+        Rational value = 1;
+        for (long k = exponent.get_num().get_si(); k > 0; --k) value *= base;
+        return value;
+    }
+
+    const std::map<std::string, Rational>& values_; ///< of all sizes that it may use
+    const std::vector<NamedTree>& sizes_;
+    const NamedTree& size_; ///< whose value is made
+};
+
+} // namespace
+
+void read_sizes(ModelReader& reader)
 {
-    const ArrayValue closed = reader.close_array(value, {Role::parameter}, what);
-    const bool declares = key.shape.rank == Rank::scalar && key.name.find('[') == std::string::npos;
-    const std::vector<Tree> entries =
-        fit_values(closed, key.shape, what, where, declares ? family_hint(key.name, closed.shape) : "");
-    for (std::size_t k = 0; k < entries.size(); ++k) reader.model.parameters[key.indices[k]].value = entries[k];
+    std::vector<NamedTree> sizes;
+    for (const Item& item : reader.at("sizes").items()) {
+        reader.names.declare(item.name(), Role::size, item.where());
+        Tree value = read_expression(item.value(), item.title());
+        for (const Setting& setting : *reader.settings)
+            if (setting.name == item.name() && setting.gives_value()) value = parse_expression(setting.value);
+        sizes.push_back(NamedTree{item.name(), std::move(value), item.where()});
+    }
+    std::map<std::string, Rational> values;
+    for (const std::size_t k : dependency_order(sizes, "sizes")) {
+        const NamedTree& size = sizes[k];
+        const Rational value = SizeArithmetic(values, sizes, k)(*size.value);
+        if (value.get_den() != 1 || value < 0 || value > largest_size)
+            refuse(size, fmt::format("is {}", value.get_str()), size.value->where, "");
+        values.emplace(size.name, value);
+    }
+    for (const NamedTree& size : sizes) {
+        const long value = values.at(size.name).get_num().get_si();
+        reader.model.sizes.push_back(Size{size.name, value, size.where});
+        reader.model.scope.declare_size(size.name, value, size.where);
+    }
 }
+
+namespace {
 
 std::string input_hint(const std::string& name)
 {
@@ -45,11 +136,16 @@ std::string input_hint(const std::string& name)
 void apply(ModelReader& reader, const std::vector<Symbol>& symbols, const Setting& setting)
 {
     if (const std::optional<ResolvedKey> key = resolve_key(symbols, key_of(reader, setting))) {
+        const std::string what = fmt::format("the value set for parameter '{}'", key->name);
+        std::vector<Tree> values;
         if (setting.gives_value())
-            assign(reader, *key, parse_expression(setting.value),
-                   fmt::format("the value set for parameter '{}'", key->name),
-                   setting.value.range(0, setting.value.text.size()));
-        for (const std::size_t k : key->indices) reader.model.parameters[k].bound |= setting.binds;
+            values = fit_values(reader.close(parse_expression(setting.value), Role::parameter, what), key->shape, what,
+                                setting.value.range(0, setting.value.text.size()));
+        for (std::size_t k = 0; k < key->indices.size(); ++k) {
+            Parameter& parameter = reader.model.parameters[key->indices[k]];
+            if (!values.empty()) parameter.value = values[k];
+            parameter.bound |= setting.binds;
+        }
         return;
     }
     const Names::Entry* entry = reader.names.find(setting.name);
@@ -77,15 +173,6 @@ void apply(ModelReader& reader, const std::vector<Symbol>& symbols, const Settin
     throw ModelError(what, whole_text(option_of(setting), given).range(0, setting.name.size()), hint);
 }
 
-/// Strings of the list `key` of [base].
-std::vector<Excerpt> base_list(const TomlEntry* block, const char* key)
-{
-    if (block == nullptr) return {};
-    TableReader table(block->value, "[base]");
-    const TomlEntry* entry = table.take(key);
-    return entry != nullptr ? read_list(entry->value, fmt::format("'{}' of [base]", key)) : std::vector<Excerpt>{};
-}
-
 /// A constraint without base coordinates holds everywhere or nowhere.
 void require_coordinate(const ModelReader& reader, const Tree& closed, const Excerpt& text)
 {
@@ -104,12 +191,12 @@ void refuse_moving(const ModelReader& reader, const std::vector<Tree>& closed, c
     const Tree time =
         find_name(closed, [&](const std::string& name) { return name == "t" && reader.names.find(name) == nullptr; });
     if (time == nullptr) return;
-    throw ModelError("a constraint may not depend on the time ('t')",
-                     time->where.file ? time->where : text.range(0, text.text.size()),
-                     fmt::format("constraints of which one moves with t are constraints on velocities, with a drift: "
-                                 "kind = \"nonholonomic\" with constraints = [\"Dt({})\"], each of them in Dt, and "
-                                 "[algebroid.of] kind = \"tangent\"",
-                                 text.text.size() <= longest ? text.text : ".."));
+    throw complain::may_not_depend(
+        "a constraint", "the time ('t')", time->where.file ? time->where : text.range(0, text.text.size()),
+        fmt::format("constraints of which one moves with t are constraints on velocities, with a drift: "
+                    "kind = \"nonholonomic\" with constraints = [\"Dt({})\"], each of them in Dt, and "
+                    "[algebroid.of] kind = \"tangent\"",
+                    text.text.size() <= longest ? text.text : ".."));
 }
 
 bool is_strict(Comparison comparison)
@@ -126,13 +213,13 @@ std::vector<Tree> read_inequalities(const ModelReader& reader, const Excerpt& te
                          text.range(0, text.text.size()), "use <, > or !=");
     }
     const auto close = [&](std::size_t side) {
-        return reader.close_array(parsed->arguments[side], {Role::parameter, Role::base}, "the domain");
+        return reader.close(parsed->arguments[side], Role::parameter | Role::base, "the domain");
     };
     const ArrayValue left = close(0);
     const ArrayValue right = close(1);
     const bool scalars = left.shape.rank == Rank::scalar && right.shape.rank == Rank::scalar;
     const bool alike = left.shape == right.shape || left.shape.rank == Rank::scalar || right.shape.rank == Rank::scalar;
-    if (scalars || !alike) return {reader.close(parsed, {Role::parameter, Role::base}, "the domain")};
+    if (scalars || !alike) return {reader.scalar(parsed, Role::parameter | Role::base, "the domain")};
     std::vector<Tree> inequalities;
     for (std::size_t k = 0; k < std::max(left.shape.size(), right.shape.size()); ++k)
         inequalities.push_back(compare(parsed->comparison, left.entries[left.entries.size() == 1 ? 0 : k],
@@ -154,32 +241,26 @@ void keep_constraints(Base& base, const std::vector<std::size_t>& places)
 
 } // namespace
 
-void read_parameters(ModelReader& reader, const TomlEntry* block, const std::vector<Setting>& settings)
+void read_parameters(ModelReader& reader)
 {
+    std::vector<Parameter>& parameters = reader.model.parameters;
     const std::vector<Symbol> symbols = parameter_symbols(reader.model);
-    for (std::size_t k = 0; block != nullptr && k < block->value.entries.size(); ++k) {
-        const TomlEntry& entry = block->value.entries[k];
-        const std::string& name = reader.parameter_names[k];
-        const Tree value = read_array_expression(entry.value, fmt::format("the parameter '{}'", name));
-        assign(reader, *resolve_key(symbols, name), value, fmt::format("the value of parameter '{}'", name),
-               entry.value.where);
-    }
-    for (const Setting& setting : settings) apply(reader, symbols, setting);
+    reader.read_declared(reader.at("parameters"),
+                         [&](std::size_t k, const Tree& value) { parameters[k].value = value; });
+    for (const Setting& setting : *reader.settings) apply(reader, symbols, setting);
     std::vector<NamedTree> values;
-    for (const Parameter& parameter : reader.model.parameters) {
-        values.push_back(NamedTree{parameter.symbol.name, parameter.value, parameter.symbol.where});
-    }
+    for (const Parameter& each : parameters) values.push_back({each.symbol.name, each.value, each.symbol.where});
     (void)dependency_order(values, "parameters");
 }
 
-void read_base(ModelReader& reader, const TomlEntry* block)
+void read_base(ModelReader& reader)
 {
     Base& base = reader.model.base;
-    const auto point = {Role::parameter, Role::base};
-    for (const Excerpt& text : base_list(block, "constraints")) {
+    const Item block = reader.at("base");
+    constexpr Roles point = Role::parameter | Role::base;
+    for (const Excerpt& text : block.at("constraints").texts()) {
         refuse_equation(text, "the constraint");
-        const auto moving = {Role::parameter, Role::base, Role::time};
-        ArrayValue closed = reader.close_array(parse_expression(text), moving, "a constraint");
+        ArrayValue closed = reader.close(parse_expression(text), point | Role::time, "a constraint");
         refuse_moving(reader, closed.entries, text);
         for (Tree& entry : closed.entries) {
             require_coordinate(reader, entry, text);
@@ -188,11 +269,9 @@ void read_base(ModelReader& reader, const TomlEntry* block)
         }
     }
     if (reader.own_constraints) keep_constraints(base, *reader.own_constraints);
-    for (const auto& [key, value] : reader.casimirs) {
-        const ArrayValue closed = reader.close_array(value, point, fmt::format("the Casimir '{}'", key.text));
-        append_entries(base.casimirs, key, closed);
-    }
-    for (const Excerpt& text : base_list(block, "domain"))
+    for (const auto& [key, value] : reader.casimirs)
+        append_entries(base.casimirs, key, reader.close(value, point, fmt::format("the Casimir '{}'", key.text)));
+    for (const Excerpt& text : block.at("domain").texts())
         for (Tree& inequality : read_inequalities(reader, text)) base.domain.push_back(std::move(inequality));
 }
 

@@ -3,7 +3,7 @@
 #include "model/read_values.hpp"
 
 #include "expression/parse.hpp"
-#include "model/source_positions.hpp"
+#include "model/complaints.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -12,20 +12,30 @@ namespace lagen {
 
 namespace {
 
-[[noreturn]] void refuse_type(const TomlValue& value, const std::string& what, const char* wanted,
-                              const char* hint = "")
+/// C0, DEL, C1, line and paragraph separators and the marks that reverse the direction of writing.
+bool is_control(char32_t c)
 {
-    throw ModelError(fmt::format("{} is {}, where {} is required", what, kind_text(value.kind), wanted), value.where,
-                     hint);
+    return c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0x2028 || c == 0x2029 || (c >= 0x202A && c <= 0x202E) ||
+           (c >= 0x2066 && c <= 0x2069);
+}
+
+/// The first byte at which a control character stands; the text's size where there is none.
+std::size_t first_control_character(std::string_view text)
+{
+    std::size_t at = 0;
+    while (at < text.size()) {
+        const CodePoint point = decode_utf8(text, at);
+        if (is_control(point.value)) return at;
+        at += std::max<std::size_t>(1, point.length);
+    }
+    return at;
 }
 
 /// A decimal literal of TOML: sign, digits with '_' between them, point, exponent.
 Tree read_decimal(const TomlValue& value, const std::string& what)
 {
-    if (!value.finite) {
-        throw ModelError(fmt::format("{} is '{}', where a finite number is required", what, value.text.text),
-                         value.where);
-    }
+    if (!value.finite)
+        throw complain::is_not(what, fmt::format("'{}'", value.text.text), "a finite number", value.where);
     Excerpt plain{value.text.file, {}, {}};
     bool negative = false;
     for (std::size_t k = 0; k < value.text.text.size(); ++k) {
@@ -54,7 +64,7 @@ Tree read_expression(const TomlValue& value, const std::string& what)
     case TomlKind::string: return parse_expression(value.text);
     case TomlKind::integer: return number(Rational(value.integer), value.where);
     case TomlKind::decimal: return read_decimal(value, what);
-    default: refuse_type(value, what, "a number or an expression string");
+    default: throw InternalError("a value that is no expression");
     }
 }
 
@@ -64,18 +74,8 @@ Tree read_array_expression(const TomlValue& value, const std::string& what)
     auto out = std::make_shared<TreeNode>();
     out->kind = TreeKind::array;
     out->where = value.where;
-    for (const TomlValue& row : value.items) {
-        if (row.kind != TomlKind::array) {
-            out->arguments.push_back(read_expression(row, "an entry of " + what));
-            continue;
-        }
-        auto entries = std::make_shared<TreeNode>();
-        entries->kind = TreeKind::array;
-        entries->where = row.where;
-        for (const TomlValue& entry : row.items)
-            entries->arguments.push_back(read_expression(entry, "an entry of " + what));
-        out->arguments.push_back(std::move(entries));
-    }
+    for (const TomlValue& entry : value.items)
+        out->arguments.push_back(read_array_expression(entry, "an entry of " + what));
     return out;
 }
 
@@ -94,47 +94,15 @@ void refuse_equation(const Excerpt& text, const std::string& what)
         text.range(0, text.text.size()), fmt::format("write \"{}\"", difference));
 }
 
-std::string read_text(const TomlValue& value, const std::string& what)
+void require_printable(const Excerpt& text, const std::string& what)
 {
-    if (value.kind != TomlKind::string) refuse_type(value, what, "a string");
-    const std::size_t at = first_control_character(value.text.text);
-    if (at != value.text.text.size()) {
-        const CodePoint point = decode_utf8(value.text.text, at);
-        throw ModelError(
-            fmt::format("{} contains the control character U+{:04X}; printable characters on one line are required",
-                        what, static_cast<unsigned>(point.value)),
-            value.text.range(at, at + point.length));
-    }
-    return value.text.text;
-}
-
-bool read_flag(const TomlValue& value, const std::string& what)
-{
-    if (value.kind != TomlKind::boolean) refuse_type(value, what, "true or false");
-    return value.boolean;
-}
-
-long read_count(const TomlValue& value, const std::string& what, long least, long most)
-{
-    if (value.kind != TomlKind::integer) refuse_type(value, what, "an integer");
-    if (value.integer < least || value.integer > most) {
-        throw ModelError(
-            fmt::format("{} is {}, where an integer from {} to {} is required", what, value.integer, least, most),
-            value.where);
-    }
-    return value.integer;
-}
-
-std::vector<Excerpt> read_list(const TomlValue& value, const std::string& what)
-{
-    if (value.kind != TomlKind::array)
-        refuse_type(value, what, "an array of strings", "one entry is written [\"..\"], several [\"..\", \"..\"]");
-    std::vector<Excerpt> out;
-    for (const TomlValue& item : value.items) {
-        if (item.kind != TomlKind::string) refuse_type(item, "an entry of " + what, "a string");
-        out.push_back(item.text);
-    }
-    return out;
+    const std::size_t at = first_control_character(text.text);
+    if (at == text.text.size()) return;
+    const CodePoint point = decode_utf8(text.text, at);
+    throw ModelError(
+        fmt::format("{} contains the control character U+{:04X}; printable characters on one line are required", what,
+                    static_cast<unsigned>(point.value)),
+        text.range(at, at + point.length));
 }
 
 std::vector<Excerpt> split_at_commas(const Excerpt& text)

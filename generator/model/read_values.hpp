@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Single values of a model file: expressions, texts, flags, counts, lists of names.
+/// Single values of a model file, whose kinds are right already: expressions, texts, lists of names.
 #pragma once
 
 #include "expression/tree.hpp"
@@ -21,16 +21,8 @@ namespace lagen {
 /// message, e.g. "the constraint".
 void refuse_equation(const Excerpt& text, const std::string& what);
 
-/// A string without control characters.
-[[nodiscard]] std::string read_text(const TomlValue& value, const std::string& what);
-
-[[nodiscard]] bool read_flag(const TomlValue& value, const std::string& what);
-
-/// An integer in [least, most].
-[[nodiscard]] long read_count(const TomlValue& value, const std::string& what, long least, long most);
-
-/// An array of strings.
-[[nodiscard]] std::vector<Excerpt> read_list(const TomlValue& value, const std::string& what);
+/// Throws ModelError where a control character stands in the text.
+void require_printable(const Excerpt& text, const std::string& what);
 
 /// The parts between commas, blanks trimmed; at least one (possibly empty) part.
 [[nodiscard]] std::vector<Excerpt> split_at_commas(const Excerpt& text);

@@ -2,9 +2,9 @@
 #include "model/scene_form.hpp"
 
 #include "expression/find_part.hpp"
+#include "model/complaints.hpp"
 #include "model/families.hpp"
 #include "model/read_curve.hpp"
-#include "model/table_reader.hpp"
 #include "model/total_cost.hpp"
 #include "text/comma_list.hpp"
 

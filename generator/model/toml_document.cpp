@@ -2,10 +2,6 @@
 /// toml++ behind a wall: the only file that includes it.
 #include "model/toml_document.hpp"
 
-#include "model/decode_string.hpp"
-#include "model/require_short_keys.hpp"
-#include "model/source_positions.hpp"
-
 #ifdef __GNUC__
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
@@ -21,12 +17,234 @@
 #endif
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fmt/format.h>
+#include <string_view>
 
 namespace lagen {
 
 namespace {
+
+/// From (line, column in code points), as a TOML parser counts, to bytes of the file.
+class SourcePositions {
+  public:
+    /// `text` must outlive this object.
+    explicit SourcePositions(std::string_view text);
+
+    /// The byte where the character at `line`, `column` (both from 1) starts; past the end of a line its end, past the
+    /// end of the text the text's end.
+    [[nodiscard]] std::size_t byte_of(std::size_t line, std::size_t column) const;
+
+  private:
+    struct Line {
+        std::size_t byte;      ///< where it starts
+        std::size_t character; ///< how many characters of the text stand before it
+    };
+    std::string_view text_;
+    std::vector<Line> lines_;
+    std::vector<std::size_t>
+        milestones_; ///< the byte of every 64th character, so that long lines cost no more than short ones
+};
+
+constexpr std::size_t milestone = 64;
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
+SourcePositions::SourcePositions(std::string_view text) : text_(text)
+{
+    std::size_t at = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+    lines_.push_back({at, 0});
+    for (std::size_t character = 0; at < text.size(); ++character) {
+        if (character % milestone == 0) milestones_.push_back(at);
+        const bool ends_line = text[at] == '\n';
+        at += std::max<std::size_t>(1, decode_utf8(text, at).length);
+        if (ends_line) lines_.push_back({at, character + 1});
+    }
+}
+
+std::size_t SourcePositions::byte_of(std::size_t line, std::size_t column) const
+{
+    if (line == 0) return 0;
+    if (line > lines_.size()) return text_.size();
+    const std::size_t line_end = line < lines_.size() ? lines_[line].byte - 1 : text_.size();
+    const std::size_t character = lines_[line - 1].character + std::max<std::size_t>(1, column) - 1;
+    if (character / milestone >= milestones_.size()) return line_end;
+    std::size_t at = milestones_[character / milestone];
+    for (std::size_t k = 0; k < character % milestone && at < line_end; ++k) {
+        at += std::max<std::size_t>(1, decode_utf8(text_, at).length);
+    }
+    return std::min(at, line_end);
+}
+
+void append_utf8(std::string& out, unsigned long c)
+{
+    const auto push = [&out](unsigned long byte) { out.push_back(static_cast<char>(byte)); };
+    if (c < 0x80) {
+        push(c);
+    } else if (c < 0x800) {
+        push(0xC0 | (c >> 6));
+        push(0x80 | (c & 0x3F));
+    } else if (c < 0x10000) {
+        push(0xE0 | (c >> 12));
+        push(0x80 | ((c >> 6) & 0x3F));
+        push(0x80 | (c & 0x3F));
+    } else {
+        push(0xF0 | (c >> 18));
+        push(0x80 | ((c >> 12) & 0x3F));
+        push(0x80 | ((c >> 6) & 0x3F));
+        push(0x80 | (c & 0x3F));
+    }
+}
+
+unsigned long hexadecimal(std::string_view digits)
+{
+    unsigned long value = 0;
+    for (const char d : digits) {
+        const unsigned digit = d <= '9' ? static_cast<unsigned>(d - '0') : static_cast<unsigned>((d | 0x20) - 'a' + 10);
+        value = value * 16 + digit;
+    }
+    return value;
+}
+
+char simple_escape(char c)
+{
+    switch (c) {
+    case 'b': return '\b';
+    case 't': return '\t';
+    case 'n': return '\n';
+    case 'f': return '\f';
+    case 'r': return '\r';
+    case 'e': return '\x1b';
+    default: return c;
+    }
+}
+
+/// The literal's text between its quotes, consumed from left to right into an excerpt.
+class Decoder {
+  public:
+    Decoder(Excerpt& out, std::size_t begin, std::size_t end) : out_(out), at_(begin), end_(end) {}
+
+    void run(bool escapes)
+    {
+        const std::string& text = out_.file->text;
+        while (at_ < end_) {
+            if (escapes && text[at_] == '\\' && at_ + 1 < end_) {
+                escape();
+            } else {
+                out_.text.push_back(text[at_]);
+                out_.origin.push_back(at_++);
+            }
+        }
+        out_.origin.push_back(end_);
+    }
+
+  private:
+    void escape()
+    {
+        const std::string& text = out_.file->text;
+        const std::size_t start = at_;
+        const char c = text[at_ + 1];
+        at_ += 2;
+        if (c == ' ' || c == '\t' || c == '\n' ||
+            c == '\r') { // a line-ending backslash swallows the white space after it
+            while (at_ < end_ && std::string_view(" \t\r\n").find(text[at_]) != std::string_view::npos) ++at_;
+            return;
+        }
+        std::string piece;
+        const std::size_t digits = c == 'u' ? 4 : c == 'U' ? 8 : 0;
+        if (digits != 0 && at_ + digits <= end_) {
+            append_utf8(piece, hexadecimal(std::string_view(text).substr(at_, digits)));
+            at_ += digits;
+        } else {
+            piece.push_back(simple_escape(c));
+        }
+        out_.text += piece;
+        out_.origin.insert(out_.origin.end(), piece.size(), start);
+    }
+
+    Excerpt& out_;
+    std::size_t at_;
+    std::size_t end_;
+};
+
+/// Decodes the literal (basic, literal, multi-line of either, or a bare key) that starts at byte `begin` of the file
+/// and ends before `end`. `value` is what the TOML parser read there; where decoding disagrees with it (it never
+/// should), every byte is said to come from `begin`, so that positions are coarse but never wrong in content.
+Excerpt decode_string(const std::shared_ptr<const SourceFile>& file, std::size_t begin, std::size_t end,
+                      const std::string& value)
+{
+    const std::string_view literal = std::string_view(file->text).substr(begin, end - begin);
+    Excerpt out{file, {}, {}};
+    std::size_t quotes = 0;
+    bool escapes = false;
+    for (const std::string_view quote : {"\"\"\"", "'''", "\"", "'"}) {
+        if (literal.size() < 2 * quote.size() || !literal.starts_with(quote) || !literal.ends_with(quote)) continue;
+        quotes = quote.size();
+        escapes = quote.front() == '"';
+        break;
+    }
+    std::size_t first = begin + quotes;
+    if (quotes == 3 && literal.substr(3).starts_with("\r\n")) first += 2;
+    if (quotes == 3 && literal.substr(3).starts_with("\n")) first += 1;
+    Decoder(out, first, end - quotes).run(escapes);
+    if (out.text != value) {
+        out.text = value;
+        out.origin.assign(value.size(), begin);
+        out.origin.push_back(end);
+    }
+    return out;
+}
+
+constexpr std::size_t most_parts = 64;
+
+/// The end of the string or comment that begins at `k`, or `k` where none does.
+std::size_t end_of_text(std::string_view text, std::size_t k)
+{
+    if (text[k] == '#') return std::min(text.find('\n', k), text.size());
+    if (text[k] != '"' && text[k] != '\'') return k;
+    const char quote = text[k];
+    const std::string three(3, quote);
+    const bool long_string = text.substr(k, 3) == three;
+    std::size_t at = k + (long_string ? 3 : 1);
+    while (at < text.size()) {
+        if (quote == '"' && text[at] == '\\') {
+            at += 2;
+        } else if (long_string && text.substr(at, 3) == three) {
+            return at + 3;
+        } else if (!long_string && (text[at] == quote || text[at] == '\n')) {
+            return at + 1;
+        } else {
+            ++at;
+        }
+    }
+    return text.size();
+}
+
+bool is_key_character(char c)
+{
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == ' ' || c == '\t';
+}
+
+/// toml++ recurses along a dotted key, so that its parts are bounded before it.
+void require_short_keys(const std::shared_ptr<const SourceFile>& file)
+{
+    const std::string_view text = file->text;
+    std::size_t parts = 1, begin = 0;
+    for (std::size_t k = 0; k < text.size();) {
+        if (const std::size_t end = end_of_text(text, k); end != k) {
+            if (text[k] == '#') parts = 1;
+            k = end;
+            continue;
+        }
+        const char c = text[k++];
+        if (c == '.' && ++parts > most_parts)
+            throw ModelError(fmt::format("a key has more than {} parts", most_parts), SourceRange{file, begin, k},
+                             "no key of a model has more than 6");
+        if (c == '.' || is_key_character(c)) continue;
+        parts = 1;
+        begin = k;
+    }
+}
 
 /// Walks a toml++ tree (its parser bounds the nesting at 256) and rebuilds it in the order of the file.
 class Rebuilder {

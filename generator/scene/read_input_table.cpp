@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "scene/read_input_table.hpp"
 
+#include "model/complaints.hpp"
 #include "model/families.hpp"
 #include "model/model_reader.hpp"
 #include "model/plain_names.hpp"
 #include "model/read_file.hpp"
 #include "model/read_values.hpp"
-#include "model/table_reader.hpp"
 
 #include <fmt/format.h>
 

@@ -51,8 +51,8 @@ TEST_CASE("there is a model to start from of every kind, and lagen check proves 
         CHECK(made.code == 0);
         CHECK_THAT(made.out, Catch::Contains("my_" + kind + ".toml\n"));
         const std::string text = read_text(folder + "/my_" + kind + ".toml");
-        CHECK_THAT(text, Catch::StartsWith("# Made by `lagen new my_" + kind + " --kind " + kind +
-                                           "`. Next:\n#   lagen check my_" + kind + ".toml\n") &&
+        CHECK_THAT(text, Catch::StartsWith("#:schema lagen.schema.json\n# Made by `lagen new my_" + kind + " --kind " +
+                                           kind + "`. Next:\n#   lagen check my_" + kind + ".toml\n") &&
                              !Catch::Contains("NAME"));
         const Outcome checked = call({"check", "my_" + kind + ".toml"}, {.folder = folder});
         CHECK(checked.code == 0);
@@ -64,7 +64,8 @@ TEST_CASE("a new model overwrites nothing, and its name is that of a class")
 {
     const std::string folder = fresh_folder();
     CHECK(call({"new", "planet", "--kind", "product"}, {.folder = folder}).out ==
-          "planet.toml\nplanet_body.toml\nplanet_orbit.toml\n");
+          "planet.toml\nplanet_body.toml\nplanet_orbit.toml\nlagen.schema.json\n");
+    CHECK(read_text(folder + "/lagen.schema.json") == call({"schema"}).out);
     const std::string text = read_text(folder + "/planet.toml");
     CHECK_THAT(text, Catch::Contains("of = [\"planet_orbit.toml\", \"planet_body.toml\"]"));
     write_text(folder + "/other_orbit.toml", "");
@@ -75,8 +76,8 @@ TEST_CASE("a new model overwrites nothing, and its name is that of a class")
         CHECK_THAT(again.err, Catch::EndsWith(".toml' is there already, and is not overwritten\n"));
     }
     CHECK(read_text(folder + "/planet.toml") == text);
-    CHECK(names_in(folder) ==
-          KindList{"other_orbit.toml", "planet.toml", "planet_body.toml", "planet_orbit.toml"}); // no half of `other`
+    CHECK(names_in(folder) == KindList{"lagen.schema.json", "other_orbit.toml", "planet.toml", "planet_body.toml",
+                                       "planet_orbit.toml"}); // no half of `other`
     CHECK(call({"new", "two words"}, {.folder = folder}).err ==
           "<NAME>:1:1: error: the model name 'two words' is not a C++ identifier\n  two words\n  ^~~~~~~~~\n"
           "hint: use letters, digits and '_', with no digit first, e.g. \"heavy_top\"\n");

@@ -6,6 +6,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <cstdlib>
 #include <filesystem>
 #include <sys/wait.h>
 
@@ -36,7 +37,10 @@ TEST_CASE("every command of tests/errors/commands prints the text beside it")
         if (!example.name.starts_with("commands/")) continue;
         INFO(example.name);
         REQUIRE(example.text.starts_with("$ "));
-        CHECK(transcript(example.text.substr(2, example.text.find('\n') - 2)) == example.text);
+        const std::string found = transcript(example.text.substr(2, example.text.find('\n') - 2));
+        if (std::getenv("LAGEN_UPDATE_GOLDEN") != nullptr)
+            lagen::testing::write_text(examples_folder() + "/" + example.name + ".txt", found);
+        CHECK(found == example.text);
         ++done;
     }
     CHECK(done >= 40);

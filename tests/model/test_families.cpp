@@ -207,7 +207,7 @@ TEST_CASE("a setting that fits nothing says so")
     CHECK(error_with({setting("temperature", "1")}) ==
           "the model has no parameter or size 'temperature' to set | known parameters and sizes: m, mass, c, W, I, n, "
           "pairs");
-    CHECK(error_with({setting("n", "mass")}) == "the size 'n' uses 'mass', which is no size | known sizes: n, pairs");
+    CHECK(error_with({setting("n", "mass")}) == "the size 'n' names 'mass', which is no size | known sizes: n, pairs");
     CHECK(error_with({setting("n", "-1")}) == "the size 'n' is -1, where an integer from 0 to 4096 is required | ");
     CHECK(error_with({setting("m[0]", "1")}) == "the index is 0 | it is 1 at least");
 }

@@ -23,6 +23,7 @@ using Arguments = std::span<const std::string>;
 [[nodiscard]] ExitCode run_solve(Arguments arguments);
 [[nodiscard]] ExitCode run_linearize(Arguments arguments);
 [[nodiscard]] ExitCode run_new(Arguments arguments);
+[[nodiscard]] ExitCode run_schema(Arguments arguments);
 [[nodiscard]] ExitCode run_models(Arguments arguments);
 [[nodiscard]] ExitCode run_methods(Arguments arguments);
 

@@ -8,7 +8,7 @@
 #include "model/families.hpp"
 #include "model/read_curve.hpp"
 #include "model/scene_form.hpp"
-#include "model/scene_values.hpp"
+#include "model/scene_reader.hpp"
 
 #include <fmt/core.h>
 
