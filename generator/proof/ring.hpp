@@ -131,17 +131,6 @@ class Ring {
     [[nodiscard]] Signs quadratic_signs(const std::map<unsigned, Polynomial>& parts, int depth);
     [[nodiscard]] Signs root_signs(GeneratorId id, const std::map<unsigned, Polynomial>& parts, int depth);
     [[nodiscard]] Signs exponential_signs(const Polynomial& p, int depth);
-    /// variable = image, a polynomial in generators that are not negative.
-    struct Shift {
-        GeneratorId variable;
-        Polynomial image; ///< over `scale`
-        mpz_class scale;
-    };
-    [[nodiscard]] Polynomial shifted(const Polynomial& p, const Shift& shift);
-    [[nodiscard]] Signs shifted_signs(const Polynomial& p, int depth);
-    void make_shifts();
-    void add_shift(const SignFact& fact, bool upward);
-    [[nodiscard]] bool leads_to(const Polynomial& from, GeneratorId to) const;
     [[nodiscard]] Signs end_signs(const Polynomial& p, int depth);
     [[nodiscard]] Signs sum_signs(const Polynomial& p, const mpz_class& coefficient, const SignFact& fact, int depth);
     [[nodiscard]] Signs fact_signs(const Polynomial& p, int depth);
@@ -154,9 +143,7 @@ class Ring {
     std::map<std::string, std::size_t> factor_keys_;
     std::map<std::pair<GeneratorId, unsigned>, Polynomial> relation_powers_;
     std::vector<SignFact> facts_;
-    std::vector<Shift> shifts_;
     std::map<GeneratorId, std::pair<Polynomial, mpz_class>> exponents_; ///< of exponentials, over a number > 0
-    std::size_t shifted_facts_ = 0;                                     ///< facts that `shifts_` were made of
     std::size_t sign_steps_ = 0;                                        ///< left of one question about signs
 };
 
