@@ -92,11 +92,6 @@ class Ring {
     void add_fact(const Polynomial& p, const Signs& known);
     [[nodiscard]] Signs signs(const Polynomial& p);
     [[nodiscard]] Signs signs(const Fraction& a);
-    /// The generator is exp(exponent / below).
-    void set_exponent(GeneratorId id, const Polynomial& exponent, const mpz_class& below)
-    {
-        exponents_[id] = {exponent, below};
-    }
     /// Sharpens the ranges of generators by the facts; call once all facts are known.
     void propagate_facts();
     /// True where two facts exclude each other: no point satisfies all of them.
@@ -130,7 +125,6 @@ class Ring {
     [[nodiscard]] Signs group_signs(GeneratorId id, const std::map<unsigned, Polynomial>& parts, int depth);
     [[nodiscard]] Signs quadratic_signs(const std::map<unsigned, Polynomial>& parts, int depth);
     [[nodiscard]] Signs root_signs(GeneratorId id, const std::map<unsigned, Polynomial>& parts, int depth);
-    [[nodiscard]] Signs exponential_signs(const Polynomial& p, int depth);
     [[nodiscard]] Signs end_signs(const Polynomial& p, int depth);
     [[nodiscard]] Signs sum_signs(const Polynomial& p, const mpz_class& coefficient, const SignFact& fact, int depth);
     [[nodiscard]] Signs fact_signs(const Polynomial& p, int depth);
@@ -143,7 +137,6 @@ class Ring {
     std::map<std::string, std::size_t> factor_keys_;
     std::map<std::pair<GeneratorId, unsigned>, Polynomial> relation_powers_;
     std::vector<SignFact> facts_;
-    std::map<GeneratorId, std::pair<Polynomial, mpz_class>> exponents_; ///< of exponentials, over a number > 0
     std::size_t sign_steps_ = 0;                                        ///< left of one question about signs
 };
 

@@ -171,7 +171,6 @@ Signs Ring::signs(const Polynomial& p, int depth)
     if (p.size() > 2 && square_root(primitive(p), root, work_))
         known = both(known, proof::power(signs(root, depth + 1), 2));
     if (!settled()) known = both(known, end_signs(p, depth));
-    if (!settled()) known = both(known, exponential_signs(p, depth));
     if (!settled()) known = both(known, grouped_signs(p, depth));
     if (settled() || depth > 0) return known;
     for (const Polynomial& form : rewritings(p))
@@ -191,7 +190,7 @@ Signs Ring::signs(const Fraction& a)
 }
 
 // Signs of sums of groups: p = sum_k P_k g^k in one generator g, whose parts have signs of their own; quadratics by
-// their discriminant, roots by their norm, exponentials by their exponents.
+// their discriminant, roots by their norm.
 
 namespace {
 
@@ -284,28 +283,6 @@ Signs Ring::root_signs(GeneratorId id, const std::map<unsigned, Polynomial>& par
     const Polynomial image = times(power(B, 2), generator.relation);
     const Signs norm = signs(add_scaled(power(A, 2), image, -1, work_), depth + 1);
     return falling ? norm : -norm;
-}
-
-/// c E_1 - c E_2 for products E of exponentials and common factors: the sign of the difference of the exponents.
-Signs Ring::exponential_signs(const Polynomial& p, int depth)
-{
-    if (p.size() != 2 || p[0].coefficient + p[1].coefficient != 0) return {};
-    Polynomial sum[2];
-    mpz_class scale_of[2] = {1, 1};
-    for (int j = 0; j < 2; ++j) {
-        const Monomial& monomial = p[static_cast<std::size_t>(j)].monomial;
-        for (std::size_t k = 0; k < monomial.size(); ++k) {
-            const auto at = exponents_.find(monomial.generator(k));
-            if (at == exponents_.end()) return {};
-            const Polynomial& exponent = at->second.first;
-            const mpz_class& below = at->second.second;
-            sum[j] = add_scaled(proof::scale(sum[j], below), exponent, scale_of[j] * monomial.exponent(k), work_);
-            scale_of[j] *= below;
-        }
-    }
-    const Polynomial difference = add_scaled(proof::scale(sum[0], scale_of[1]), sum[1], -scale_of[0], work_);
-    const Signs order = signs(difference, depth + 1);
-    return p[0].coefficient > 0 ? order : -order;
 }
 
 } // namespace lagen::proof
