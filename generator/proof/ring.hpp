@@ -120,7 +120,6 @@ class Ring {
     [[nodiscard]] Range term_range(const Term& term) const;
     [[nodiscard]] Signs value_signs(const Polynomial& p) const;
     void bound_by(const SignFact& fact);
-    void bound_by_sums();
     [[nodiscard]] Signs grouped_signs(const Polynomial& p, int depth);
     [[nodiscard]] Signs group_signs(GeneratorId id, const std::map<unsigned, Polynomial>& parts, int depth);
     [[nodiscard]] Signs quadratic_signs(const std::map<unsigned, Polynomial>& parts, int depth);
