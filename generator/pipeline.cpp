@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "pipeline.hpp"
 
+#include "analysis/leaf.hpp"
 #include "elaborate/bind_parameters.hpp"
 #include "elaborate/make_frame.hpp"
 #include "emit/print_header.hpp"
@@ -13,7 +14,6 @@
 #include "text/content_hash.hpp"
 #include "typeset/print_equations.hpp"
 #include "verify/control_maximum.hpp"
-#include "verify/leaf.hpp"
 
 #include <fmt/format.h>
 
@@ -169,7 +169,7 @@ std::vector<std::string> require_unrefuted(const char* noun, const std::string& 
     return {fmt::format("this {} is not proved: {}{}", noun, what, what == structure.note ? "" : " is undecided")};
 }
 
-/// A start that is moved stays on its leaf (verify/leaf.hpp).
+/// A start that is moved stays on its leaf (analysis/leaf.hpp).
 void find_casimirs_for_starts(CheckedModel& checked)
 {
     Base& base = checked.model.base;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// `lagen solve`: relative equilibria with what is proved of their stability.
+#include "analysis/relative_equilibria.hpp"
 #include "commands/exact_start.hpp"
 #include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
@@ -15,7 +16,6 @@
 #include "model/scene_form.hpp"
 #include "pipeline.hpp"
 #include "text/record.hpp"
-#include "verify/relative_equilibria.hpp"
 
 #include <fmt/format.h>
 

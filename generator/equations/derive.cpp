@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "equations/derive.hpp"
 
+#include "analysis/find_invariants.hpp"
 #include "equations/cartan.hpp"
 #include "equations/control_variations.hpp"
 #include "equations/discrete.hpp"
@@ -21,7 +22,6 @@
 #include "model/model.hpp"
 #include "model/scene_form.hpp"
 #include "typeset/equation_set.hpp"
-#include "verify/find_invariants.hpp"
 #include "verify/verify.hpp"
 
 #include <fmt/format.h>
@@ -40,7 +40,7 @@ namespace {
 
 // Invariants of Hamilton's equations that are found without help: `derive --form invariants`.
 
-/// Each function of the ansatz of verify/find_invariants.hpp with rate zero, with the statement that it is.
+/// Each function of the ansatz of analysis/find_invariants.hpp with rate zero, with the statement that it is.
 /// Throws MathematicsError where the model has no H in closed form, or one with explicit time.
 EquationSet derive_invariants(const Model& model, const System& system, const Regularity& regularity)
 {

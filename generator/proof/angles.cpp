@@ -76,7 +76,6 @@ void Elementary::make_generators(Unit& unit, const Fraction& atom, bool angle)
         generator.value = ring_.value_of(argument);
         if (generator.value) arb_exp(generator.value->get(), generator.value->get(), 256);
         unit.first = ring_.add_generator(std::move(generator));
-        if (argument.is_polynomial()) ring_.set_exponent(unit.first, argument.num, argument.scale);
         exponents_.emplace(unit.first, std::move(argument));
         return;
     }

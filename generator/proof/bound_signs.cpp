@@ -114,26 +114,6 @@ void Ring::propagate_facts()
             if (const auto range = root_range(End{}, square.high, generator.power); range && !square.high.infinite)
                 restrict_range(static_cast<GeneratorId>(k), *range);
         }
-        bound_by_sums();
-    }
-}
-
-/// a - b > 0 and b > 0 say a > 0: signs of single generators.
-void Ring::bound_by_sums()
-{
-    for (std::size_t k = 0; k < facts_.size(); ++k) {
-        std::vector<GeneratorId> single;
-        for (const Term& term : facts_[k].polynomial)
-            if (term.monomial.size() == 1 && term.monomial.exponent(0) == 1)
-                single.push_back(term.monomial.generator(0));
-        for (const GeneratorId id : single) {
-            const Signs known = fact_signs(generator_polynomial(id), 2);
-            Range range;
-            if (!known.negative) range.low = End{false, 0, !known.zero};
-            if (!known.positive) range.high = End{false, 0, !known.zero};
-            range.nonzero = !known.zero;
-            restrict_range(id, range);
-        }
     }
 }
 

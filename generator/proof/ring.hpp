@@ -92,11 +92,6 @@ class Ring {
     void add_fact(const Polynomial& p, const Signs& known);
     [[nodiscard]] Signs signs(const Polynomial& p);
     [[nodiscard]] Signs signs(const Fraction& a);
-    /// The generator is exp(exponent / below).
-    void set_exponent(GeneratorId id, const Polynomial& exponent, const mpz_class& below)
-    {
-        exponents_[id] = {exponent, below};
-    }
     /// Sharpens the ranges of generators by the facts; call once all facts are known.
     void propagate_facts();
     /// True where two facts exclude each other: no point satisfies all of them.
@@ -125,23 +120,10 @@ class Ring {
     [[nodiscard]] Range term_range(const Term& term) const;
     [[nodiscard]] Signs value_signs(const Polynomial& p) const;
     void bound_by(const SignFact& fact);
-    void bound_by_sums();
     [[nodiscard]] Signs grouped_signs(const Polynomial& p, int depth);
     [[nodiscard]] Signs group_signs(GeneratorId id, const std::map<unsigned, Polynomial>& parts, int depth);
     [[nodiscard]] Signs quadratic_signs(const std::map<unsigned, Polynomial>& parts, int depth);
     [[nodiscard]] Signs root_signs(GeneratorId id, const std::map<unsigned, Polynomial>& parts, int depth);
-    [[nodiscard]] Signs exponential_signs(const Polynomial& p, int depth);
-    /// variable = image, a polynomial in generators that are not negative.
-    struct Shift {
-        GeneratorId variable;
-        Polynomial image; ///< over `scale`
-        mpz_class scale;
-    };
-    [[nodiscard]] Polynomial shifted(const Polynomial& p, const Shift& shift);
-    [[nodiscard]] Signs shifted_signs(const Polynomial& p, int depth);
-    void make_shifts();
-    void add_shift(const SignFact& fact, bool upward);
-    [[nodiscard]] bool leads_to(const Polynomial& from, GeneratorId to) const;
     [[nodiscard]] Signs end_signs(const Polynomial& p, int depth);
     [[nodiscard]] Signs sum_signs(const Polynomial& p, const mpz_class& coefficient, const SignFact& fact, int depth);
     [[nodiscard]] Signs fact_signs(const Polynomial& p, int depth);
@@ -154,9 +136,6 @@ class Ring {
     std::map<std::string, std::size_t> factor_keys_;
     std::map<std::pair<GeneratorId, unsigned>, Polynomial> relation_powers_;
     std::vector<SignFact> facts_;
-    std::vector<Shift> shifts_;
-    std::map<GeneratorId, std::pair<Polynomial, mpz_class>> exponents_; ///< of exponentials, over a number > 0
-    std::size_t shifted_facts_ = 0;                                     ///< facts that `shifts_` were made of
     std::size_t sign_steps_ = 0;                                        ///< left of one question about signs
 };
 

@@ -2,6 +2,7 @@
 #include "commands/linearize/plant.hpp"
 
 #include "algebra/rational_near.hpp"
+#include "analysis/leaf.hpp"
 #include "commands/scene/start_state.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/evaluate.hpp"
@@ -10,7 +11,6 @@
 #include "kernels/formulation.hpp"
 #include "model/carried_states.hpp"
 #include "model/form.hpp"
-#include "verify/leaf.hpp"
 
 #include <fmt/format.h>
 

@@ -3,9 +3,9 @@
 /// scene starts.
 #pragma once
 
+#include "analysis/equilibrium.hpp"
 #include "pipeline.hpp"
 #include "scene/evaluate_scene.hpp"
-#include "verify/equilibrium.hpp"
 
 namespace lagen {
 

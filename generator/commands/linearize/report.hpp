@@ -2,8 +2,8 @@
 /// What `lagen linearize` found, in text and in JSON.
 #pragma once
 
+#include "analysis/equilibrium.hpp"
 #include "linear/regulator.hpp"
-#include "verify/equilibrium.hpp"
 
 #include <string>
 

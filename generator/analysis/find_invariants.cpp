@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "verify/find_invariants.hpp"
+#include "analysis/find_invariants.hpp"
 
 #include "algebra/orthonormal_span.hpp"
 #include "algebra/rational_near.hpp"
+#include "analysis/generic_points.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/evaluate.hpp"
 #include "graph/core/operators.hpp"
-#include "verify/generic_points.hpp"
 #include "verify/proof_setting.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Equilibria near a start, certified or not, and the slopes there.
-#include "verify/equilibrium.hpp"
+#include "analysis/equilibrium.hpp"
 
 #include "expression/parse.hpp"
 #include "expression/scope.hpp"

@@ -5,7 +5,7 @@
 /// steps of least length end at (proof/least_squares.hpp), from the start or else from the inputs that best keep it at
 /// rest. Coordinates that no rate depends on stay at the start.
 ///
-/// The state stays on the leaf of the start (verify/leaf.hpp): the first steps go along the fields that make it, the
+/// The state stays on the leaf of the start (analysis/leaf.hpp): the first steps go along the fields that make it, the
 /// last ones on the levels of functions that are constant on it. Where these are too few the leaf is kept in floating
 /// point, and the certificate is none.
 ///

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Leaves of the base: the functions that are constant on them, and steps that stay on them.
-#include "verify/leaf.hpp"
+#include "analysis/leaf.hpp"
 
 #include "algebra/matrix_logarithm.hpp"
-#include "checking.hpp"
+#include "analysis/equilibrium.hpp"
 #include "graph/core/evaluate.hpp"
-#include "verify/equilibrium.hpp"
+#include "verify/checking.hpp"
 
 #include <catch2/catch.hpp>
 

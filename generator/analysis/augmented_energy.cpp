@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "verify/augmented_energy.hpp"
+#include "analysis/augmented_energy.hpp"
 
 #include "graph/calculus/differentiate.hpp"
 #include "mechanics/symplectic.hpp"

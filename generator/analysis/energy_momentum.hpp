@@ -9,9 +9,9 @@
 /// in ker dF, lambda being free up to dependent differentials: dF_t = c_ti dF_i leaves H_lambda critical.
 #pragma once
 
+#include "analysis/augmented_energy.hpp"
+#include "analysis/relative_equilibria.hpp"
 #include "proof/ball_matrix.hpp"
-#include "verify/augmented_energy.hpp"
-#include "verify/relative_equilibria.hpp"
 
 #include <functional>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "verify/generic_points.hpp"
+#include "analysis/generic_points.hpp"
 
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/evaluate.hpp"

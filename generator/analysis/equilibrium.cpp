@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "verify/equilibrium.hpp"
+#include "analysis/equilibrium.hpp"
 
 #include "algebra/orthonormal_span.hpp"
+#include "analysis/augmented_energy.hpp"
+#include "analysis/leaf.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/simplify/simplify.hpp"
 #include "proof/least_squares.hpp"
 #include "proof/sloped_functions.hpp"
 #include "text/activity.hpp"
-#include "verify/augmented_energy.hpp"
-#include "verify/leaf.hpp"
 
 #include <fmt/format.h>
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "verify/relative_equilibria.hpp"
+#include "analysis/relative_equilibria.hpp"
 
+#include "analysis/augmented_energy.hpp"
+#include "analysis/energy_momentum.hpp"
+#include "analysis/find_invariants.hpp"
+#include "analysis/generic_points.hpp"
+#include "analysis/leaf.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/evaluate.hpp"
 #include "mechanics/symplectic.hpp"
 #include "proof/least_squares.hpp"
 #include "text/activity.hpp"
-#include "verify/augmented_energy.hpp"
-#include "verify/energy_momentum.hpp"
-#include "verify/find_invariants.hpp"
-#include "verify/generic_points.hpp"
-#include "verify/leaf.hpp"
 #include "verify/proof_setting.hpp"
 #include "verify/singular_set.hpp"
 

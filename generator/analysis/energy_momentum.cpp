@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "verify/energy_momentum.hpp"
+#include "analysis/energy_momentum.hpp"
 
 #include "algebra/orthonormal_span.hpp"
 #include "algebra/rational_near.hpp"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "verify/leaf.hpp"
+#include "analysis/leaf.hpp"
 
+#include "analysis/find_invariants.hpp"
+#include "analysis/generic_points.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/evaluate.hpp"
 #include "mechanics/nonholonomic.hpp"
 #include "text/activity.hpp"
-#include "verify/find_invariants.hpp"
-#include "verify/generic_points.hpp"
 #include "verify/proof_setting.hpp"
 
 #include <algorithm>
