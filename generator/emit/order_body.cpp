@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "emit/order_body.hpp"
 
-#include "emit/overlap_steps.hpp"
-
 #include <algorithm>
 #include <numeric>
 #include <set>
@@ -237,7 +235,7 @@ std::vector<BodyStep> order_body(const Graph& graph, const BodyPlan& plan, const
         if (&order != &orders.front()) consider(walked(order, nullptr));
         consider(walked(order, &registers));
     }
-    return overlap_steps(graph, plan, std::move(best));
+    return best;
 }
 
 } // namespace lagen

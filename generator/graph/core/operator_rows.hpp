@@ -7,11 +7,6 @@
 
 namespace lagen::rules {
 
-inline constexpr double addition_latency = 4;
-inline constexpr double division_latency = 13;
-inline constexpr double root_latency = 20;
-inline constexpr double function_latency = 70; ///< sincos of a batch; others take no less
-
 constexpr Operator leaf(Op op, const char* name)
 {
     return {.op = op, .name = name, .spelling = name, .word = name, .series = SeriesRule::constant};
@@ -55,7 +50,6 @@ constexpr Operator function(Function f, Op op, Smoothness smoothness, Sense (*do
     row.function = f;
     row.smoothness = smoothness;
     row.domain = domain;
-    if (row.latency == 0) row.latency = function_latency;
     return row;
 }
 
@@ -74,7 +68,6 @@ constexpr Operator comparison(Comparison c, Op op, const char* word, Trichotomy 
             .comparison = c,
             .holds = holds,
             .weight = 1,
-            .latency = function_latency,
             .value = value,
             .exact = exact,
             .contribution = of_step,
