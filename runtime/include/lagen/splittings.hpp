@@ -11,7 +11,7 @@
 /// [B, [B, A]] = -2 g'(x) M g(x) d/dy then, which commutes with B: [B, [B, [B, A]]] = 0 is what methods of Nystrom's
 /// kind rest on.)
 ///
-/// Of a model that `HasFlows` they compose these instead (integrate/flow_stepper.hpp).
+/// Of a model that `HasFlows` they compose these instead (FlowStepper).
 ///
 /// Separability is the caller's to know (`lagen run` proves it): a probe at the start refuses a right-hand side that
 /// plainly is not of this form, and can miss one that is only nearly so.
