@@ -275,7 +275,7 @@ class UnknownSolver {
         return true;
     }
 
-    /// Whether the steps get shorter down to the last places, or to where F is only rounding.
+    /// True where the steps get shorter down to the last places, or to where F is only rounding.
     bool polish()
     {
         const Scalar most = largest_entry(substitute(start_.matrix, start_.residual));

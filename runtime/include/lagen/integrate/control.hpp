@@ -235,7 +235,7 @@ typename State::Scalar squared_error(const ErrorScale<typename State::Scalar>& s
     return sum;
 }
 
-/// Whether to round a state of this size, by a quarter of an epsilon, is a larger error than is allowed.
+/// True where to round a state of this size, by a quarter of an epsilon, is a larger error than is allowed.
 template <class State>
 bool is_below_rounding(const StepControl& control, const State& s) noexcept
 {

@@ -249,7 +249,7 @@ class Instant {
         return Status::ok;
     }
 
-    /// Whether it has jumped in this instant.
+    /// True where it has jumped in this instant.
     [[nodiscard]] bool has_jumped(std::size_t r) const noexcept { return places_[r].jumped; }
 
   private:

@@ -109,7 +109,7 @@ class March {
     {
     }
 
-    /// Whether some event asks for a jump.
+    /// True where some event asks for a jump.
     static bool jumps(const Asked& options)
     {
         return std::any_of(options.events.begin(), options.events.end(), [](const auto& each) { return !!each.jump; });

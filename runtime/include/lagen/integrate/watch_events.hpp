@@ -140,7 +140,7 @@ class EventWatch {
     }
 
     [[nodiscard]] bool empty() const noexcept { return requests_.empty(); }
-    /// Whether every request is an event of the model.
+    /// True where every request is an event of the model.
     [[nodiscard]] bool all_named() const noexcept
     {
         return std::none_of(requests_.begin(), requests_.end(), [](const Request& request) { return !!request.when; });
@@ -249,8 +249,8 @@ class EventWatch {
         return h < Real(0) ? time : Real(-time);
     }
 
-    /// Whether a function that has crossed its zero at (t, s) comes from there, against the direction of h: the motion
-    /// is within the errors of its steps.
+    /// True where a function that has crossed its zero at (t, s) comes from there, against the direction of h: the
+    /// motion is within the errors of its steps.
     [[nodiscard]] bool returns(const Crossed& crossed, Real t, const State& s, Real h)
     {
         values_.find_rates(t, s, h, rate_);
@@ -387,8 +387,8 @@ class EventWatch {
         before_[r] = first;
     }
 
-    /// Whether function r, which comes from values of this size, does not certainly cross its zero where it has got to
-    /// `value` beyond it, at theta: what lies within rounding errors, or is less than the tolerance and 1e-6 of the
+    /// True where function r, which comes from values of this size, does not certainly cross its zero where it has got
+    /// to `value` beyond it, at theta: what lies within rounding errors, or is less than the tolerance and 1e-6 of the
     /// size, may be a touch. One that goes on as fast as functions of this size do near no turning point is none: the
     /// value d of c x^2, which is S where x = 1, has the rate 2 sqrt(d S).
     template <class At>

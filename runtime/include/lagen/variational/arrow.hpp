@@ -107,7 +107,7 @@ void set_group_part(typename M::State& s, const GroupMatrix<typename M::Scalar, 
         for (int j = 0; j < Lanes::order; ++j) s[Lanes::element + i * Lanes::order + j] = V(i, j);
 }
 
-/// Whether h is the step of the model, up to what times of the size of t are rounded by.
+/// True where h is the step of the model, up to what times of the size of t are rounded by.
 template <DiscreteMotion M>
 [[nodiscard]] bool is_own_step(const M& model, const step_time_t<M>& t, const step_time_t<M>& h) noexcept
 {
@@ -173,7 +173,7 @@ void renew_group_part(const M& model, const typename M::Scalar& t, typename M::S
     }
 }
 
-/// Whether W is plainly no element of the group: what its coordinates around 1 lead to is another matrix. Where the
+/// True where W is plainly no element of the group: what its coordinates around 1 lead to is another matrix. Where the
 /// chart does not reach W, or hardly, nothing is said.
 template <DiscreteMotion M>
 [[nodiscard]] bool is_off_group(const M& model, const typename M::Scalar& t, const typename M::State& s) noexcept
@@ -226,7 +226,7 @@ template <DiscreteMotion M>
     return sizes;
 }
 
-/// Whether a step of Newton's method is so small a part of the arrow, along each unknown.
+/// True where a step of Newton's method is so small a part of the arrow, along each unknown.
 template <DiscreteMotion M>
 [[nodiscard]] bool is_part(const ArrowColumn<M>& d, const ArrowColumn<M>& sizes,
                            const typename M::Scalar& part) noexcept
@@ -381,7 +381,7 @@ class ArrowSolver {
         return Status::newton_diverged;
     }
 
-    /// Whether N^-1 R of the first residual is, by the N behind the first step, that step up to half of it.
+    /// True where N^-1 R of the first residual is, by the N behind the first step, that step up to half of it.
     [[nodiscard]] bool is_alike(const Column& residual, const Column& step) noexcept
     {
         Column again = residual;
@@ -389,7 +389,7 @@ class ArrowSolver {
                (again - step).cwiseAbs().maxCoeff() <= Scalar(Real(0.5)) * step.cwiseAbs().maxCoeff();
     }
 
-    /// Whether det N has the sign of the branch at points on the way along d: at its half, its quarter, and so on.
+    /// True where det N has the sign of the branch at points on the way along d: at its half, its quarter, and so on.
     /// Folds that all lie between two of them are not seen.
     [[nodiscard]] bool keeps_sign(const M& model, const Scalar& t, const State& z, const Column& d,
                                   bool negative) noexcept
