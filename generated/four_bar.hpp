@@ -295,132 +295,132 @@ class four_bar {
     {
         const S th = s[0], ph = s[1], ps = s[2];
         const S v_th = s[3];
-        const S w0 = th - ps;
-        const S w1 = ph - ps;
-        const S w2 = th - ph;
-        const auto [a, b, c, d, m_a, m_b, m_c, g] = parameters;
-        const S w3 = S(1) / a;
-        const S w4 = S(2) * m_b;
-        const S w5 = w3 * g;
-        const auto [sines, cosines] = sincos<S, 6>({th, ph, ps, w0, w1, w2});
-        const S w6 = S(3) * m_b;
-        const S w7 = S(2) * m_c;
-        const S w8 = v_th * v_th;
-        const S w9 = S(1) / b;
-        const S w10 = S(1) / c;
-        const S w11 = S(4) * m_c;
-        const S w12 = S(3) * g;
-        const S w13 = S(3) * b;
-        const S w14 = S(3) * w5;
-        const S w15 = S(3) * ((m_a + w4) * w5);
-        const S w16 = w9 * sines[3];
-        const S w17 = w10 * cosines[5];
-        const S w18 = w10 * sines[5];
-        const S w19 = m_c * sines[5];
-        const S w20 = m_b * sines[3];
-        const S w21 = S(2) * cosines[5];
-        const S w22 = S(2) * cosines[3];
-        const S w23 = m_c * cosines[2];
-        const S w24 = m_b * cosines[3];
-        const S w25 = sines[5] * sines[3];
-        const S w26 = cosines[5] * cosines[5];
-        const S w27 = S(1) / sines[4];
-        const S w28 = sines[0] * sines[1] + cosines[0] * cosines[1];
-        const S w29 = S(2) * cosines[4];
-        const S w30 = S(2) * sines[5];
-        const S w31 = cosines[4] * cosines[3];
-        const S w32 = b * cosines[3];
-        const S w33 = sines[0] * cosines[1] - cosines[0] * sines[1];
-        const S w34 = sines[3] * w27;
-        const S w35 = w25 - cosines[5] * cosines[3];
-        const S w36 = S(3) * w28;
-        const S w37 = cosines[4] * w27;
-        const S w38 = sines[3] * w16;
-        const S w39 = w21 * w19;
-        const S w40 = c * w16;
-        const S w41 = sines[5] * w19;
-        const S w42 = w30 * cosines[3];
-        const S w43 = b * w18 - sines[3];
-        const S w44 = S(2) * w18;
-        const S w45 = w33 * sines[3];
-        const S w46 = S(2) * w34 - w36;
-        const S w47 = S(3) * w33;
-        const S w48 = a * w27;
-        const S w49 = sines[3] * w37 - cosines[3];
-        const S w50 = sines[1] + cosines[1] * w37;
-        const S w51 = w19 * w27;
-        const S w52 = w28 * cosines[3];
-        const S w53 = w37 * w16;
-        const S w54 = sines[5] * w37;
-        const S w55 = w28 * sines[3];
-        const S w56 = S(2) * w33;
-        const S w57 = w47 * w20;
-        const S w58 = w43 * w27;
-        const S w59 = w48 * v_th;
-        const S w60 = w18 * w51;
-        const S w61 = w21 * w51;
-        const S w62 = cosines[5] * w37;
-        const S w63 = cosines[5] + w54;
-        const S w64 = cosines[4] * w46 - w22;
-        const S w65 = S(2) * w37;
-        const S w66 = w9 * w49;
-        const S w67 = sines[5] * w54;
-        const S w68 = a * v_th * w59;
-        const S w69 = w46 * w49;
-        const S w70 = w49 * w43;
-        const S w71 = w10 * w63;
-        const S w72 = w63 * w51;
-        const S w73 = cosines[3] + (w37 * w38 - w18 * w49) * w48;
-        const S w74 = w64 * w34 + S(3) * w52;
-        const S w75 = (w39 + cosines[4] * (w30 * w51 + w46 * w20)) * w27 + w57;
-        const S w76 = w6 * (((sines[1] * w37 - cosines[1]) * (cosines[1] * w34 - S(2) * cosines[0]) + w50 * (S(2) *
-                sines[0] - sines[1] * w34)) * w38 - S(2) * w17 * w52);
-        const S w77 = w73 * (w22 * w27 + w47) + w46 * ((w22 * w53 - w10 * ((cosines[5] * sines[3] + sines[5] *
-                cosines[3]) * w37 + w35)) * w48 - sines[3]) + S(3) * (w55 + w33 * cosines[3]);
-        const S w78 = m_b * (sines[3] * ((w21 * sines[3] + sines[5] * w64) * w27 - S(3) * cosines[5] * w28) + S(3) *
-                sines[5] * w52) + S(2) * (w67 + S(2) * w63 * (sines[5] - w40)) * w51;
-        const S w79 = m_b * (sines[3] * (w49 * (w46 + S(2) * w58) + S(3) * (sines[3] * (w28 * w37 - w56) - w52)) - w36 *
-                w70) + S(2) * (w42 - sines[3] * (S(4) * cosines[5] + S(5) * w54)) * w51;
-        const S w80 = S(1) / (m_a + w6 + (sines[5] * w51 + (w34 - w36) * w20) * w27);
-        const S w81 = w9 * (sines[3] * (w6 * (w55 + w56 * cosines[3]) + w7 * (sines[5] * (S(2) * w62 - sines[5]) + w26)
-                * w27) + w22 * w72) - S(6) * w62 * w60;
-        const S w82 = w27 * w80;
-        const S w83 = (m_b * (w73 * w46 + S(3) * w45) + (a * ((w57 + S(2) * w72) * w16 - S(2) * w54 * w60) + w39) * w27)
-                * v_th;
-        const S w84 = S(3) * cosines[4] * w45 + w46 * (a * ((S(1) + S(3) * (w37 * w37)) * w38 - w10 * ((sines[3] *
-                (cosines[5] + S(3) * w54) - w42) * w37 + w35)) + w31);
-        const S w85 = cosines[4] * (w9 * w79 + w18 * (S(2) * (w22 * w20 + (S(4) * w41 - sines[3] * w20) * w37) * w27 -
-                m_b * w69)) - w30 * (m_c * (w9 * (w25 - w21 * cosines[3]) - sines[5] * w18) + w10 * cosines[3] * w24);
-        const S w86 = w46 * ((a * ((w44 * w49 + w9 * (sines[3] * (cosines[3] - S(2) * sines[3] * w37) + w70)) * w37 -
-                w38) - w31) * w27 - sines[3]) + ((a * (sines[3] * (w65 * w58 - w47) - w44 * w32 * w27) - S(2) * w32) *
-                w27 - w13 * w33) * w66;
-        const S w87 = w80 * (w15 * cosines[0] + w27 * (v_th * w83 - w14 * (cosines[1] * w20 + w19 * cosines[2])));
-        const S w88 = sines[3] * (w9 * (S(3) * sines[3] * w20 - w11 * w26) + S(4) * w17 * w24) + w29 * ((w57 - w61) *
-                w16 - w10 * w78) - S(4) * w18 * w41;
-        const S w89 = (w4 * (cosines[3] * (S(3) * a * w33 * w16 - cosines[3]) - w73 * w49) + (a * w85 + w29 *
-                (cosines[3] * w20 - w39)) * w27) * w27;
-        const S w90 = (m_b * (w22 * w34 + S(3) * (w45 - w52)) + w61) * w87 + w14 * (cosines[1] * w24 + cosines[5] * w23)
-                - (m_b * w77 + (a * w81 + w7 * (w26 - sines[5] * sines[5])) * w27) * w8;
-        const S w91 = a * (w76 + w88 * w27) + w4 * w84 + w11 * (w63 * (cosines[5] + (w63 * w16 - w18 * w54) * w48 + w10
-                * (c * cosines[5] + (w63 * w40 - w67) * w48)) - S(1));
-        const S w92 = (m_b * w86 + w89) * w8 - w3 * (w12 * w19 * (sines[2] - cosines[2] * w37) - w66 * (w75 * w68 + w13
-                * m_b * g * cosines[1]));
-        const S w93 = w75 * w87 + w3 * (w12 * w50 * w20 + w71 * (S(3) * c * g * w23 - (m_b * w74 + S(2) * w51 * w54) *
-                w68));
         values[0] = S(1);
-        values[4] = -w48 * w16;
-        values[8] = -w18 * w48;
-        values[1] = -w9 * cosines[3] * w59;
-        values[2] = w53 * w59;
-        values[5] = -w17 * w59;
-        const S w94 = S(0.25) * w82;
-        values[7] = -w18 * w37 * w59;
-        values[3] = -w66 * w59;
-        values[6] = w71 * w59;
-        values[12] = -w82 * w83;
-        values[9] = S(0.5) * w80 * (w15 * sines[0] + w27 * w90);
-        values[11] = w94 * ((m_b * (w69 + w74) + S(4) * w51 * w54) * w87 + S(2) * w92);
-        values[10] = w94 * ((w4 * (w36 * sines[3] + w73 * (w47 + w65 * w34)) + w91 * w27) * w8 - S(2) * w93);
+        const auto [a, b, c, d, m_a, m_b, m_c, g] = parameters;
+        const S w0 = S(1) / b;
+        const S w1 = th - ps;
+        const S w2 = ph - ps;
+        const S w3 = th - ph;
+        const auto [sines, cosines] = sincos<S, 6>({th, ph, ps, w1, w2, w3});
+        const S w4 = S(1) / sines[4];
+        const S w5 = a * w4;
+        const S w6 = w5 * v_th;
+        values[1] = -w0 * cosines[3] * w6;
+        const S w7 = cosines[4] * w4;
+        const S w8 = w0 * sines[3];
+        const S w9 = w7 * w8;
+        values[2] = w9 * w6;
+        const S w10 = sines[3] * w7 - cosines[3];
+        const S w11 = w0 * w10;
+        values[3] = -w11 * w6;
+        values[4] = -w5 * w8;
+        const S w12 = S(1) / c;
+        const S w13 = w12 * cosines[5];
+        values[5] = -w13 * w6;
+        const S w14 = sines[5] * w7;
+        const S w15 = cosines[5] + w14;
+        const S w16 = w12 * w15;
+        values[6] = w16 * w6;
+        const S w17 = w12 * sines[5];
+        values[7] = -w17 * w7 * w6;
+        values[8] = -w17 * w5;
+        const S w18 = sines[3] * w8;
+        const S w19 = cosines[3] + (w7 * w18 - w17 * w10) * w5;
+        const S w20 = sines[3] * w4;
+        const S w21 = sines[0] * sines[1] + cosines[0] * cosines[1];
+        const S w22 = S(3) * w21;
+        const S w23 = S(2) * w20 - w22;
+        const S w24 = sines[0] * cosines[1] - cosines[0] * sines[1];
+        const S w25 = w24 * sines[3];
+        const S w26 = m_c * sines[5];
+        const S w27 = w26 * w4;
+        const S w28 = w15 * w27;
+        const S w29 = S(3) * w24;
+        const S w30 = m_b * sines[3];
+        const S w31 = w29 * w30;
+        const S w32 = w17 * w27;
+        const S w33 = S(2) * cosines[5];
+        const S w34 = w33 * w26;
+        const S w35 = (m_b * (w19 * w23 + S(3) * w25) + (a * ((w31 + S(2) * w28) * w8 - S(2) * w14 * w32) + w34) * w4) *
+                v_th;
+        const S w36 = S(1) / a;
+        const S w37 = w36 * g;
+        const S w38 = S(3) * w37;
+        const S w39 = S(2) * m_b;
+        const S w40 = S(3) * ((m_a + w39) * w37);
+        const S w41 = S(3) * m_b;
+        const S w42 = S(1) / (m_a + w41 + (sines[5] * w27 + (w20 - w22) * w30) * w4);
+        const S w43 = w42 * (w40 * cosines[0] + w4 * (v_th * w35 - w38 * (cosines[1] * w30 + w26 * cosines[2])));
+        const S w44 = w21 * cosines[3];
+        const S w45 = S(2) * cosines[3];
+        const S w46 = w33 * w27;
+        const S w47 = m_c * cosines[2];
+        const S w48 = m_b * cosines[3];
+        const S w49 = sines[5] * sines[3];
+        const S w50 = w49 - cosines[5] * cosines[3];
+        const S w51 = w21 * sines[3];
+        const S w52 = w19 * (w45 * w4 + w29) + w23 * ((w45 * w9 - w12 * ((cosines[5] * sines[3] + sines[5] * cosines[3])
+                * w7 + w50)) * w5 - sines[3]) + S(3) * (w51 + w24 * cosines[3]);
+        const S w53 = S(2) * w24;
+        const S w54 = cosines[5] * w7;
+        const S w55 = cosines[5] * cosines[5];
+        const S w56 = S(2) * m_c;
+        const S w57 = w0 * (sines[3] * (w41 * (w51 + w53 * cosines[3]) + w56 * (sines[5] * (S(2) * w54 - sines[5]) +
+                w55) * w4) + w45 * w28) - S(6) * w54 * w32;
+        const S w58 = v_th * v_th;
+        const S w59 = (m_b * (w45 * w20 + S(3) * (w25 - w44)) + w46) * w43 + w38 * (cosines[1] * w48 + cosines[5] * w47)
+                - (m_b * w52 + (a * w57 + w56 * (w55 - sines[5] * sines[5])) * w4) * w58;
+        values[9] = S(0.5) * w42 * (w40 * sines[0] + w4 * w59);
+        const S w60 = sines[1] + cosines[1] * w7;
+        const S w61 = w41 * (((sines[1] * w7 - cosines[1]) * (cosines[1] * w20 - S(2) * cosines[0]) + w60 * (S(2) *
+                sines[0] - sines[1] * w20)) * w18 - S(2) * w13 * w44);
+        const S w62 = cosines[4] * w23 - w45;
+        const S w63 = c * w8;
+        const S w64 = sines[5] * w14;
+        const S w65 = m_b * (sines[3] * ((w33 * sines[3] + sines[5] * w62) * w4 - S(3) * cosines[5] * w21) + S(3) *
+                sines[5] * w44) + S(2) * (w64 + S(2) * w15 * (sines[5] - w63)) * w27;
+        const S w66 = S(2) * cosines[4];
+        const S w67 = S(4) * m_c;
+        const S w68 = sines[5] * w26;
+        const S w69 = sines[3] * (w0 * (S(3) * sines[3] * w30 - w67 * w55) + S(4) * w13 * w48) + w66 * ((w31 - w46) * w8
+                - w12 * w65) - S(4) * w17 * w68;
+        const S w70 = S(2) * sines[5];
+        const S w71 = w70 * cosines[3];
+        const S w72 = cosines[4] * cosines[3];
+        const S w73 = S(3) * cosines[4] * w25 + w23 * (a * ((S(1) + S(3) * (w7 * w7)) * w18 - w12 * ((sines[3] *
+                (cosines[5] + S(3) * w14) - w71) * w7 + w50)) + w72);
+        const S w74 = a * (w61 + w69 * w4) + w39 * w73 + w67 * (w15 * (cosines[5] + (w15 * w8 - w17 * w14) * w5 + w12 *
+                (c * cosines[5] + (w15 * w63 - w64) * w5)) - S(1));
+        const S w75 = S(2) * w7;
+        const S w76 = (w34 + cosines[4] * (w70 * w27 + w23 * w30)) * w4 + w31;
+        const S w77 = w62 * w20 + S(3) * w44;
+        const S w78 = a * v_th * w6;
+        const S w79 = S(3) * g;
+        const S w80 = w76 * w43 + w36 * (w79 * w60 * w30 + w16 * (S(3) * c * g * w47 - (m_b * w77 + S(2) * w27 * w14) *
+                w78));
+        const S w81 = w4 * w42;
+        const S w82 = S(0.25) * w81;
+        values[10] = w82 * ((w39 * (w22 * sines[3] + w19 * (w29 + w75 * w20)) + w74 * w4) * w58 - S(2) * w80);
+        const S w83 = w23 * w10;
+        const S w84 = b * w17 - sines[3];
+        const S w85 = w84 * w4;
+        const S w86 = w10 * w84;
+        const S w87 = m_b * (sines[3] * (w10 * (w23 + S(2) * w85) + S(3) * (sines[3] * (w21 * w7 - w53) - w44)) - w22 *
+                w86) + S(2) * (w71 - sines[3] * (S(4) * cosines[5] + S(5) * w14)) * w27;
+        const S w88 = cosines[4] * (w0 * w87 + w17 * (S(2) * (w45 * w30 + (S(4) * w68 - sines[3] * w30) * w7) * w4 - m_b
+                * w83)) - w70 * (m_c * (w0 * (w49 - w33 * cosines[3]) - sines[5] * w17) + w12 * cosines[3] * w48);
+        const S w89 = (w39 * (cosines[3] * (S(3) * a * w24 * w8 - cosines[3]) - w19 * w10) + (a * w88 + w66 *
+                (cosines[3] * w30 - w34)) * w4) * w4;
+        const S w90 = S(2) * w17;
+        const S w91 = b * cosines[3];
+        const S w92 = S(3) * b;
+        const S w93 = w23 * ((a * ((w90 * w10 + w0 * (sines[3] * (cosines[3] - S(2) * sines[3] * w7) + w86)) * w7 - w18)
+                - w72) * w4 - sines[3]) + ((a * (sines[3] * (w75 * w85 - w29) - w90 * w91 * w4) - S(2) * w91) * w4 - w92
+                * w24) * w11;
+        const S w94 = (m_b * w93 + w89) * w58 - w36 * (w79 * w26 * (sines[2] - cosines[2] * w7) - w11 * (w76 * w78 + w92
+                * m_b * g * cosines[1]));
+        values[11] = w82 * ((m_b * (w83 + w77) + S(4) * w27 * w14) * w43 + S(2) * w94);
+        values[12] = -w81 * w35;
     }
 
     /// The same as a dense matrix, shape (4, 4).

@@ -25,7 +25,7 @@ struct ModuleNames {
 /// The local copy of a state that an output may overwrite while it is read.
 [[nodiscard]] std::string copy_of(const KernelInput& input);
 
-/// Whether the kernel, as a function, returns its output; else it writes to references.
+/// True where the kernel, as a function, returns its output; else it writes to references.
 [[nodiscard]] bool returns_value(const Kernel& kernel);
 
 } // namespace lagen

@@ -13,7 +13,7 @@ namespace lagen {
 
 namespace {
 
-/// Whether a variable of `names` stands in the expression.
+/// True where a variable of `names` stands in the expression.
 bool mentions(const Expression& expression, const std::set<std::string>& names)
 {
     if (expression.is_variable() && names.contains(expression.name)) return true;

@@ -67,7 +67,7 @@ struct Body {
     std::vector<std::string> terms = {}; ///< names of the groups of terms
 };
 
-/// Whether a statement may fail.
+/// True where a statement may fail.
 [[nodiscard]] bool has_checks(const BodyPart& part);
 [[nodiscard]] bool has_checks(const Body& body);
 [[nodiscard]] bool contains(const Body& body, Statement::Kind kind);

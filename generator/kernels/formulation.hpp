@@ -82,6 +82,13 @@ void require_regular_lagrangian(const System& system, const Regularity& regulari
 /// Entries of an r x r matrix that are alone in their row and column and no constants: divisors of a solve.
 [[nodiscard]] std::vector<NodeId> single_blocks(const Graph& graph, const std::vector<NodeId>& W, std::size_t r);
 
+/// Kernels and names of a form that has its derivative: ambient_velocity, reaction (reaction.Y), and where there is a
+/// drift moving_energy and the power of the energy. `nodes`: at the lanes of the form.
+void add_constrained(Graph& graph, const System& system, const ConstrainedNodes& nodes, Formulation& form);
+
+/// Where the sections follow from constraints, what these were solved by is a divisor too.
+void add_minor(const Graph& graph, const System& system, Formulation& form);
+
 /// A column of all entries.
 [[nodiscard]] KernelOutput column(std::string name, const std::vector<NodeId>& values);
 /// The entries of a rows x columns matrix that are no zeros by structure.

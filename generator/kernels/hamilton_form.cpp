@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Hamilton's equations (mechanics/hamilton.hpp) as kernels, of H as it is given or by Legendre's transform of L.
 #include "graph/calculus/differentiate.hpp"
-#include "kernels/constrained_kernels.hpp"
 #include "kernels/formulation.hpp"
 #include "mechanics/hamilton.hpp"
 #include "verify/legendre_obstacle.hpp"

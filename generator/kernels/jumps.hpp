@@ -6,7 +6,7 @@
 
 namespace lagen {
 
-/// Whether an event of `scene`, or of any scene where it is null, has a jump that can be made in the form.
+/// True where an event of `scene`, or of any scene where it is null, has a jump that can be made in the form.
 [[nodiscard]] bool has_jumps(const Model& model, const Scene* scene, const EquationForm& form);
 
 /// The kernel `jumps` of them: a column each with the lanes of the state behind it, functions of the state before it;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Lagrange's equations (mechanics/lagrange.hpp) as kernels: ydot = W^-1 (..), never an inverse by symbols.
 #include "graph/calculus/differentiate.hpp"
-#include "kernels/constrained_kernels.hpp"
 #include "kernels/formulation.hpp"
 #include "mechanics/lagrange.hpp"
 #include "mechanics/variations.hpp"

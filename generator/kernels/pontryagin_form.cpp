@@ -49,7 +49,7 @@ class SolvedControls {
   private:
     [[nodiscard]] bool is_proved() const { return maximum_.kind == ControlMaximum::Kind::maximal; }
 
-    /// Whether each dH/du_k holds no other control and falls with its own: then no step can miss the root.
+    /// True where each dH/du_k holds no other control and falls with its own: then no step can miss the root.
     [[nodiscard]] bool stand_apart() const
     {
         return is_proved() && !maximum_.on_part && equations_.negative.blocks.size() == rest_.u.size();

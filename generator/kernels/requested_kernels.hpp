@@ -10,7 +10,7 @@ namespace lagen {
 /// Every kernel that some form of some model has.
 [[nodiscard]] const std::vector<std::string>& kernel_names();
 
-/// Whether the request asks for the kernel `name` of this form: an empty `only` asks for all that are not made on
+/// True where the request asks for the kernel `name` of this form: an empty `only` asks for all that are not made on
 /// request alone.
 [[nodiscard]] bool is_requested(const KernelRequest& request, FormKind form, const std::string& name);
 

@@ -222,7 +222,7 @@ TEST_CASE("a header of a method brings integrate(), and nothing that methods are
         INFO(file.path);
         if (!file.path.starts_with("runtime/include/")) continue;
         const std::string header = file.path.substr(std::string("runtime/include/").size());
-        for (const char* room : {"lagen/lanes/", "lagen/integrate/", "lagen/newton/"})
+        for (const char* room : {"lagen/lanes/", "lagen/integrate/"})
             if (header.starts_with(room)) {
                 CHECK_FALSE(reached_headers(files, header).contains(run));
                 ++parts;

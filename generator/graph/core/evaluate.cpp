@@ -4,9 +4,8 @@
 
 #include "graph/core/sweep.hpp"
 
-#include <mpfr.h>
-
 #include <limits>
+#include <mpfr.h>
 #include <type_traits>
 
 namespace lagen {
@@ -86,5 +85,44 @@ template std::vector<float> evaluate(const Graph&, std::span<const NodeId>, cons
 template std::vector<double> evaluate(const Graph&, std::span<const NodeId>, const std::map<std::string, double>&);
 template std::vector<long double> evaluate(const Graph&, std::span<const NodeId>,
                                            const std::map<std::string, long double>&);
+
+// The interpreter over the rationals: exact, or no answer.
+namespace {
+
+/// Larger numbers than this are no answer either: repeated squaring doubles the digits with every node.
+constexpr std::size_t most_bits = std::size_t{1} << 20U;
+
+struct ExactField : Arithmetic<Rational> {
+    const std::map<std::string, Rational>& inputs;
+
+    explicit ExactField(const std::map<std::string, Rational>& values) : inputs(values) {}
+
+    bool leaf(const Graph& graph, NodeId id, Rational& value) const
+    {
+        if (graph.op(id) == Op::pi) return false;
+        value = graph.is_constant(id) ? graph.value(id) : input_value(graph, id, inputs);
+        return true;
+    }
+
+    bool operation(Op op, std::uint32_t payload, const Rational* x, Rational& value) const
+    {
+        auto result = exact_value(op, x, payload, most_bits);
+        if (!result || bits_of(*result) > most_bits) return false;
+        value = std::move(*result);
+        return true;
+    }
+};
+
+} // namespace
+
+std::vector<Rational> evaluate_exactly(const Graph& graph, std::span<const NodeId> outputs,
+                                       const std::map<std::string, Rational>& inputs)
+{
+    Sweep interpreter(graph, ExactField(inputs));
+    if (!interpreter.visit(reachable(graph, outputs))) return {};
+    std::vector<Rational> result;
+    for (const NodeId id : outputs) result.push_back(interpreter.value(id));
+    return result;
+}
 
 } // namespace lagen

@@ -2,15 +2,48 @@
 /// What rows of the operator table have in common, by kind.
 #pragma once
 
-#include "graph/core/condition_rules.hpp"
 #include "graph/core/derivative_rules.hpp"
+#include "graph/core/operators.hpp"
 
 namespace lagen::rules {
 
-inline constexpr double addition_latency = 4;
-inline constexpr double division_latency = 13;
-inline constexpr double root_latency = 20;
-inline constexpr double function_latency = 70; ///< sincos of a batch; others take no less
+// What the rows of the operator table say of domains: the sense in which the operands are restricted, and the function
+// of them that is.
+
+template <Sense sense>
+Sense where(const Graph&, NodeId)
+{
+    return sense;
+}
+
+inline Sense where_power(const Graph& graph, NodeId node)
+{
+    return static_cast<std::int32_t>(graph.payload(node)) < 0 ? Sense::nonzero : Sense::always;
+}
+
+/// x >= 0 for a number that is positive, else x > 0: x^y is exp(y log(x)) for any other y.
+inline Sense where_real_power(const Graph& graph, NodeId node)
+{
+    const NodeId exponent = graph.operands(node)[1];
+    return graph.is_constant(exponent) && sgn(graph.value(exponent)) > 0 ? Sense::nonnegative : Sense::positive;
+}
+
+inline Sense where_regular(const Graph& graph, NodeId node)
+{
+    const bool proved = graph.payload(node) == static_cast<std::uint32_t>(MatrixStructure::positive_definite);
+    return proved ? Sense::always : Sense::regular;
+}
+
+inline NodeId difference_of(Graph& graph, NodeId node)
+{
+    const NodeId a = graph.operands(node)[0];
+    return graph.subtract(a, graph.operands(node)[1]);
+}
+
+inline NodeId cosine_of(Graph& graph, NodeId node)
+{
+    return graph.apply(Op::cos, graph.operands(node)[0]);
+}
 
 constexpr Operator leaf(Op op, const char* name)
 {
@@ -55,7 +88,6 @@ constexpr Operator function(Function f, Op op, Smoothness smoothness, Sense (*do
     row.function = f;
     row.smoothness = smoothness;
     row.domain = domain;
-    if (row.latency == 0) row.latency = function_latency;
     return row;
 }
 
@@ -74,7 +106,6 @@ constexpr Operator comparison(Comparison c, Op op, const char* word, Trichotomy 
             .comparison = c,
             .holds = holds,
             .weight = 1,
-            .latency = function_latency,
             .value = value,
             .exact = exact,
             .contribution = of_step,

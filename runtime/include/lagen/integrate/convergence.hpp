@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Whether an iteration has reached rounding: of the increments of every lane, the sizes so far and what a rounding
-/// error of that lane is.
+/// Decides where an iteration has reached rounding: of the increments of every lane, the sizes so far and what a
+/// rounding error of that lane is.
 #pragma once
 
 #include "lagen/lanes/lanes.hpp"
