@@ -2,8 +2,7 @@
 /// `lagen chart`: what accuracy costs by every method, on one scene of a model.
 #include "commands/chart/chart.hpp"
 
-#include "commands/chart/kept_chart.hpp"
-#include "commands/chart/picture.hpp"
+#include "commands/chart/accuracy.hpp"
 #include "commands/chart/report.hpp"
 #include "commands/chart/stability_chart.hpp"
 #include "commands/line/command.hpp"
@@ -36,7 +35,7 @@ const CommandSyntax chart_syntax{
      {"stability", nullptr, "chart instead what becomes of the scene with each step: stability.svg, .png, .csv, .json"},
      {"over", "RANGES", "of --stability: step=FIRST:LAST:COUNT[,NAME=FIRST:LAST:COUNT], NAME a parameter or initial.x"},
      {"peers", nullptr, "odeint, GSL and SUNDIALS too, where they are installed, with the same right-hand side"},
-     {"t-end", "T", "end of the runs, backwards where it lies before the start; without it the scene's duration"},
+     option::t_end,
      option::set,
      option::initial,
      {"output,o", "DIR", "the folder of the files, made where it is missing", "."},

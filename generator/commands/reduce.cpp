@@ -75,7 +75,7 @@ std::string components_text(const std::vector<Check>& checks)
                     components.push_back(check.name == row ? fmt::format("{}", fmt::join(check.indices, " "))
                                                            : check.indices[1]);
             if (!components.empty())
-                text += fmt::format("  {:<15} {}: {}\n", row, fmt::join(components, ", "), to_text(status));
+                text += labelled(row, fmt::format("{}: {}", fmt::join(components, ", "), to_text(status)));
         }
     return text;
 }

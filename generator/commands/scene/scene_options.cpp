@@ -2,7 +2,7 @@
 /// The command line wins over the scene.
 #include "commands/scene/scene_options.hpp"
 
-#include "commands/line/values.hpp"
+#include "commands/line/options.hpp"
 #include "commands/machine/write_file.hpp"
 #include "expression/parse.hpp"
 #include "model/families.hpp"

@@ -2,7 +2,6 @@
 #include "commands/variations/variation_states.hpp"
 
 #include "commands/line/options.hpp"
-#include "commands/line/values.hpp"
 #include "commands/machine/philox.hpp"
 #include "commands/scene/scene_options.hpp"
 #include "graph/calculus/differentiate.hpp"
