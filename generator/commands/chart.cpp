@@ -7,10 +7,10 @@
 #include "commands/chart/stability_chart.hpp"
 #include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
-#include "commands/machine/places.hpp"
-#include "commands/machine/process.hpp"
-#include "commands/machine/write_file.hpp"
 #include "commands/scene/scene_options.hpp"
+#include "machine/places.hpp"
+#include "machine/process.hpp"
+#include "machine/write_file.hpp"
 #include "model/scene_form.hpp"
 
 #include <fmt/core.h>

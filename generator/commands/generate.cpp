@@ -2,10 +2,10 @@
 /// `lagen generate`: the C++ header of a model.
 #include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
-#include "commands/machine/places.hpp"
-#include "commands/machine/write_file.hpp"
 #include "commands/scene/scene_options.hpp"
 #include "kernels/requested_kernels.hpp"
+#include "machine/places.hpp"
+#include "machine/write_file.hpp"
 #include "model/scene_form.hpp"
 #include "pipeline.hpp"
 #include "text/record.hpp"

@@ -3,8 +3,6 @@
 /// both; of a model its cyclic coordinates, or its Routh reduction by some of them.
 #include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
-#include "commands/machine/places.hpp"
-#include "commands/machine/write_file.hpp"
 #include "commands/reduce/by_group.hpp"
 #include "commands/reduce/routh_document.hpp"
 #include "commands/report_check.hpp"
@@ -13,6 +11,8 @@
 #include "elaborate/elaborate_morphism.hpp"
 #include "elaborate/make_frame.hpp"
 #include "emit/print_equations.hpp"
+#include "machine/places.hpp"
+#include "machine/write_file.hpp"
 #include "model/read_file.hpp"
 #include "pipeline.hpp"
 #include "verify/cyclic.hpp"

@@ -2,9 +2,9 @@
 #include "commands/report_morphism.hpp"
 
 #include "advice/advise.hpp"
-#include "commands/machine/write_file.hpp"
 #include "commands/report_check.hpp"
 #include "elaborate/elaborate_morphism.hpp"
+#include "machine/write_file.hpp"
 #include "pipeline.hpp"
 
 #include <fmt/format.h>

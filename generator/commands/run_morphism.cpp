@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/run_morphism.hpp"
 
-#include "commands/machine/temporary_folder.hpp"
-#include "commands/machine/write_file.hpp"
 #include "commands/morphism/projection.hpp"
 #include "commands/report_morphism.hpp"
 #include "commands/scene/scene_options.hpp"
@@ -14,6 +12,8 @@
 #include "graph/calculus/determinant.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/lower.hpp"
+#include "machine/temporary_folder.hpp"
+#include "machine/write_file.hpp"
 #include "mechanics/momentum_balance.hpp"
 #include "mechanics/morphism.hpp"
 #include "model/plain_names.hpp"

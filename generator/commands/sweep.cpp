@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// `lagen sweep`: one scene from many starts and with many parameters, a row for each.
 #include "commands/line/command.hpp"
-#include "commands/machine/compile.hpp"
-#include "commands/machine/places.hpp"
-#include "commands/machine/write_file.hpp"
 #include "commands/scene/preparation.hpp"
 #include "commands/scene/run_report.hpp"
 #include "commands/scene/scene_options.hpp"
 #include "commands/sweep/sweep_run.hpp"
 #include "elaborate/bind_parameters.hpp"
+#include "machine/compile.hpp"
+#include "machine/places.hpp"
+#include "machine/write_file.hpp"
 #include "model/scene_form.hpp"
 
 #include <fmt/format.h>

@@ -2,12 +2,12 @@
 #include "commands/chart/accuracy.hpp"
 
 #include "commands/chart/report.hpp"
-#include "commands/machine/compile_cache.hpp"
-#include "commands/machine/write_file.hpp"
 #include "commands/scene/integrate_scene.hpp"
 #include "commands/scene/preparation.hpp"
 #include "commands/scene/run_record.hpp"
 #include "commands/scene/scene_options.hpp"
+#include "machine/compile_cache.hpp"
+#include "machine/write_file.hpp"
 #include "model/scene_form.hpp"
 
 #include <fmt/core.h>

@@ -2,11 +2,11 @@
 #include "commands/chart/chart.hpp"
 
 #include "commands/line/options.hpp"
-#include "commands/machine/write_file.hpp"
 #include "commands/scene/preparation.hpp"
 #include "elaborate/bind_parameters.hpp"
 #include "emit/print_header.hpp"
 #include "lagen_run/archive.hpp"
+#include "machine/write_file.hpp"
 #include "text/diagnostic.hpp"
 
 #include <fmt/core.h>

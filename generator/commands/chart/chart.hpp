@@ -4,8 +4,8 @@
 
 #include "commands/chart/reference.hpp"
 #include "commands/line/options.hpp"
-#include "commands/machine/compile.hpp"
 #include "commands/scene/methods.hpp"
+#include "machine/compile.hpp"
 #include "pipeline.hpp"
 
 #include <optional>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/chart/reference.hpp"
 
-#include "commands/machine/process.hpp"
-#include "commands/machine/temporary_folder.hpp"
-#include "commands/machine/write_file.hpp"
 #include "commands/scene/methods.hpp"
 #include "commands/scene/scene_program.hpp"
 #include "commands/scene/start_state.hpp"
 #include "emit/print_header.hpp"
 #include "lagen_run/archive.hpp"
+#include "machine/process.hpp"
+#include "machine/temporary_folder.hpp"
+#include "machine/write_file.hpp"
 #include "scene/sample_times.hpp"
 #include "text/diagnostic.hpp"
 

@@ -2,8 +2,8 @@
 /// The reference of a chart: two methods in 113 bits, and their distance.
 #pragma once
 
-#include "commands/machine/compile.hpp"
 #include "lagen_chart/request.hpp"
+#include "machine/compile.hpp"
 #include "pipeline.hpp"
 
 #include <array>

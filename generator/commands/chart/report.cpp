@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/chart/report.hpp"
 
-#include "commands/machine/gnuplot.hpp"
+#include "machine/gnuplot.hpp"
 #include "text/record.hpp"
 
 #include <fmt/core.h>

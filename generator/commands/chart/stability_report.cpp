@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/chart/report.hpp"
 #include "commands/chart/stability_chart.hpp"
-#include "commands/machine/gnuplot.hpp"
 #include "commands/scene/table.hpp"
+#include "machine/gnuplot.hpp"
 #include "text/record.hpp"
 
 #include <fmt/core.h>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/line/options.hpp"
 
-#include "commands/machine/write_file.hpp"
 #include "emit/print_literal.hpp"
 #include "expression/parse.hpp"
 #include "graph/core/evaluate.hpp"
 #include "graph/core/lower.hpp"
+#include "machine/write_file.hpp"
 #include "model/families.hpp"
 #include "scene/read_input_table.hpp"
 #include "text/comma_list.hpp"

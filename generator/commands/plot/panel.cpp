@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/plot/panel.hpp"
 
-#include "commands/machine/gnuplot.hpp"
+#include "machine/gnuplot.hpp"
 #include "text/alphabet.hpp"
 #include "text/comma_list.hpp"
 

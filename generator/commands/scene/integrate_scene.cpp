@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/scene/integrate_scene.hpp"
 
-#include "commands/machine/process.hpp"
-#include "commands/machine/temporary_folder.hpp"
-#include "commands/machine/write_file.hpp"
 #include "lagen_run/archive.hpp"
+#include "machine/process.hpp"
+#include "machine/temporary_folder.hpp"
+#include "machine/write_file.hpp"
 #include "methods/integrate_compiled.hpp"
 #include "text/diagnostic.hpp"
 

@@ -3,8 +3,8 @@
 #include "commands/scene/scene_options.hpp"
 
 #include "commands/line/options.hpp"
-#include "commands/machine/write_file.hpp"
 #include "expression/parse.hpp"
+#include "machine/write_file.hpp"
 #include "model/families.hpp"
 #include "model/read_curve.hpp"
 #include "model/scene_form.hpp"

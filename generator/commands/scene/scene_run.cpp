@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/scene/scene_run.hpp"
 
-#include "commands/machine/write_file.hpp"
 #include "commands/scene/integrate_scene.hpp"
 #include "commands/scene/run_report.hpp"
 #include "commands/scene/second_run.hpp"
 #include "kernels/form_kernels.hpp"
 #include "kernels/non_finite.hpp"
+#include "machine/write_file.hpp"
 #include "model/model.hpp"
 #include "model/scene_form.hpp"
 #include "scene/read_input_table.hpp"

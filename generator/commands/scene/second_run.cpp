@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/scene/second_run.hpp"
 
-#include "commands/machine/write_file.hpp"
 #include "commands/scene/integrate_scene.hpp"
+#include "machine/write_file.hpp"
 
 #include <fmt/core.h>
 

@@ -2,8 +2,8 @@
 #include "commands/sweep/sweep_file.hpp"
 
 #include "commands/line/options.hpp"
-#include "commands/machine/write_file.hpp"
 #include "commands/sweep/sweep_rows.hpp"
+#include "machine/write_file.hpp"
 #include "text/diagnostic.hpp"
 
 #include <fmt/core.h>

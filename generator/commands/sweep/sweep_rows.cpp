@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/sweep/sweep_rows.hpp"
 
-#include "commands/machine/philox.hpp"
 #include "commands/scene/scene_options.hpp"
 #include "emit/print_literal.hpp"
+#include "machine/philox.hpp"
 #include "model/families.hpp"
 #include "model/plain_names.hpp"
 #include "text/content_hash.hpp"

@@ -3,10 +3,10 @@
 /// has the same bits.
 #include "commands/sweep/sweep_run.hpp"
 
-#include "commands/machine/write_file.hpp"
 #include "commands/scene/run_report.hpp"
 #include "commands/sweep/sweep_rows.hpp"
 #include "lagen_run/archive.hpp"
+#include "machine/write_file.hpp"
 #include "model/families.hpp"
 #include "model/plain_names.hpp"
 #include "text/diagnostic.hpp"

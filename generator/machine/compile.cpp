@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "commands/machine/compile.hpp"
+#include "machine/compile.hpp"
 
-#include "commands/machine/compile_cache.hpp"
-#include "commands/machine/places.hpp"
-#include "commands/machine/process.hpp"
-#include "commands/machine/temporary_folder.hpp"
-#include "commands/machine/write_file.hpp"
+#include "machine/compile_cache.hpp"
+#include "machine/places.hpp"
+#include "machine/process.hpp"
+#include "machine/temporary_folder.hpp"
+#include "machine/write_file.hpp"
 #include "text/comma_list.hpp"
 #include "text/diagnostic.hpp"
 
