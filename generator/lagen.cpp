@@ -2,8 +2,8 @@
 /// main: options to a command, errors to standard error and an exit code. No mathematics.
 #include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
-#include "commands/machine/activity_watch.hpp"
-#include "commands/machine/write_file.hpp"
+#include "machine/activity_watch.hpp"
+#include "machine/write_file.hpp"
 #include "text/activity.hpp"
 
 #include <fmt/core.h>

@@ -2,16 +2,15 @@
 /// `lagen chart`: what accuracy costs by every method, on one scene of a model.
 #include "commands/chart/chart.hpp"
 
-#include "commands/chart/kept_chart.hpp"
-#include "commands/chart/picture.hpp"
+#include "commands/chart/accuracy.hpp"
 #include "commands/chart/report.hpp"
 #include "commands/chart/stability_chart.hpp"
 #include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
-#include "commands/machine/places.hpp"
-#include "commands/machine/process.hpp"
-#include "commands/machine/write_file.hpp"
 #include "commands/scene/scene_options.hpp"
+#include "machine/places.hpp"
+#include "machine/process.hpp"
+#include "machine/write_file.hpp"
 #include "model/scene_form.hpp"
 
 #include <fmt/core.h>
@@ -36,7 +35,7 @@ const CommandSyntax chart_syntax{
      {"stability", nullptr, "chart instead what becomes of the scene with each step: stability.svg, .png, .csv, .json"},
      {"over", "RANGES", "of --stability: step=FIRST:LAST:COUNT[,NAME=FIRST:LAST:COUNT], NAME a parameter or initial.x"},
      {"peers", nullptr, "odeint, GSL and SUNDIALS too, where they are installed, with the same right-hand side"},
-     {"t-end", "T", "end of the runs, backwards where it lies before the start; without it the scene's duration"},
+     option::t_end,
      option::set,
      option::initial,
      {"output,o", "DIR", "the folder of the files, made where it is missing", "."},

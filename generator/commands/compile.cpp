@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// `lagen compile`: a model as a shared object, which lagen::CompiledModel and other programs load.
-#include "commands/machine/compile.hpp"
+#include "machine/compile.hpp"
 #include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
-#include "commands/machine/places.hpp"
-#include "commands/machine/write_file.hpp"
 #include "commands/scene/scene_program.hpp"
+#include "machine/places.hpp"
+#include "machine/write_file.hpp"
 #include "model/form.hpp"
 #include "model/scene_form.hpp"
 #include "pipeline.hpp"

@@ -2,11 +2,10 @@
 /// `lagen generate`: the C++ header of a model.
 #include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
-#include "commands/machine/places.hpp"
-#include "commands/machine/write_file.hpp"
-#include "commands/report_operations.hpp"
 #include "commands/scene/scene_options.hpp"
 #include "kernels/requested_kernels.hpp"
+#include "machine/places.hpp"
+#include "machine/write_file.hpp"
 #include "model/scene_form.hpp"
 #include "pipeline.hpp"
 #include "text/record.hpp"
@@ -29,8 +28,7 @@ CommandSyntax generate_syntax(const std::string& form, const std::string& only)
              {"with", "KERNELS", "kernels beside those that every header has, e.g. taylor"},
              {"time-scale", "EXPR", "a kernel time_scale of this function of the state, for lagen::Reversible"},
              {"report", nullptr,
-              "on standard error the operations of each kernel before and after the passes that changed them, and its "
-              "costliest terms"},
+              "on standard error the operations of each kernel as written and as kept, and its costliest terms"},
              option::set,
              option::bind,
              {"unchecked", nullptr, "go on although the model is refuted; the header says so"},
@@ -59,6 +57,33 @@ std::string escaped(const std::string& path)
         if (c == ' ' || c == '#' || c == '\\') text += '\\';
         if (c == '$') text += '$';
         text += c;
+    }
+    return text;
+}
+
+/// One table: of each kernel the operations as written and as kept, and below them its costliest terms.
+std::string operations_text(const std::vector<KernelReport>& reports)
+{
+    constexpr std::size_t most_terms = 3; // of each kernel
+    constexpr double least_share = 0.05;  // of a kernel's weight, for a term that is shown
+    std::string text = fmt::format("{:<46}{:>6} {:>6} {:>6} {:>9} {:>6} {:>8}\n", "operations", "+ -", "*", "/",
+                                   "functions", "solves", "weight");
+    for (const KernelReport& kernel : reports) {
+        const auto numbers = [](const OperationCount& count) {
+            return fmt::format("{:>6} {:>6} {:>6} {:>9} {:>6} {:>8.0f}\n", count.additions, count.multiplications,
+                               count.divisions, count.functions, count.solves, count.weight);
+        };
+        const SimplifyReport& report = kernel.report;
+        const std::string written = numbers(report.written), kept = numbers(report.kept);
+        text +=
+            fmt::format("{:<46}{}", kernel.kernel + (written == kept ? ", kept as written" : ", as written"), written);
+        if (written != kept) text += fmt::format("{:<46}{}", "  kept", kept);
+        for (std::size_t k = 0; k < std::min(report.costliest.size(), most_terms); ++k) {
+            const CostlyTerm& term = report.costliest[k];
+            if (term.weight < least_share * report.kept.weight) break;
+            text += fmt::format("    weighs {:.0f}, used {}: {}\n", term.weight,
+                                term.uses == 1 ? "once" : fmt::format("{} times", term.uses), term.text);
+        }
     }
     return text;
 }

@@ -3,8 +3,8 @@
 #include "commands/scene/methods.hpp"
 #include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
-#include "commands/machine/write_file.hpp"
 #include "commands/scene/linear_limits.hpp"
+#include "machine/write_file.hpp"
 #include "text/record.hpp"
 
 #include <fmt/core.h>

@@ -2,9 +2,9 @@
 /// `lagen models`: the example models, with their scenes.
 #include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
-#include "commands/machine/places.hpp"
-#include "commands/machine/write_file.hpp"
 #include "elaborate/make_frame.hpp"
+#include "machine/places.hpp"
+#include "machine/write_file.hpp"
 #include "text/comma_list.hpp"
 #include "text/record.hpp"
 

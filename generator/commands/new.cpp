@@ -2,8 +2,8 @@
 /// `lagen new`: a commented model to start from.
 #include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
-#include "commands/machine/places.hpp"
-#include "commands/machine/write_file.hpp"
+#include "machine/places.hpp"
+#include "machine/write_file.hpp"
 #include "model/schema.hpp"
 
 #include <fmt/format.h>

@@ -3,8 +3,6 @@
 /// both; of a model its cyclic coordinates, or its Routh reduction by some of them.
 #include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
-#include "commands/machine/places.hpp"
-#include "commands/machine/write_file.hpp"
 #include "commands/reduce/by_group.hpp"
 #include "commands/reduce/routh_document.hpp"
 #include "commands/report_check.hpp"
@@ -12,6 +10,8 @@
 #include "commands/scene/scene_options.hpp"
 #include "elaborate/elaborate_morphism.hpp"
 #include "elaborate/make_frame.hpp"
+#include "machine/places.hpp"
+#include "machine/write_file.hpp"
 #include "model/read_file.hpp"
 #include "pipeline.hpp"
 #include "typeset/print_equations.hpp"
@@ -75,7 +75,7 @@ std::string components_text(const std::vector<Check>& checks)
                     components.push_back(check.name == row ? fmt::format("{}", fmt::join(check.indices, " "))
                                                            : check.indices[1]);
             if (!components.empty())
-                text += fmt::format("  {:<15} {}: {}\n", row, fmt::join(components, ", "), to_text(status));
+                text += labelled(row, fmt::format("{}: {}", fmt::join(components, ", "), to_text(status)));
         }
     return text;
 }

@@ -6,61 +6,67 @@
 #include "text/record.hpp"
 #include "verify/verify.hpp"
 
-#include <array>
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
 #include <map>
 #include <set>
+#include <span>
 
 namespace lagen {
 
 namespace {
 
-// Lines of `check` on a nonholonomic model, beside its verdict.
+/// One of three sentences, by what is known of a claim.
+const char* said(ProofStatus status, const char* proved, const char* refuted, const char* undecided)
+{
+    return status == ProofStatus::proved ? proved : status == ProofStatus::refuted ? refuted : undecided;
+}
 
-/// "v_x = sin(th), v_y = -cos(th)"
+/// "x = 1, y = 3/5" of named values that have a text; of an empty point that it is every one.
 template <class Values>
-std::string values_text(const Values& values)
+std::string values_text(const Values& values, const char* prefix = "")
 {
-    std::string text;
-    for (const auto& [name, value] : values) text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, value);
-    return text;
+    if (values.empty()) return "every point";
+    return comma_list(values, [&](const auto& entry) {
+        return fmt::format("{}{} = {}", prefix, entry.first, to_text(entry.second));
+    });
 }
 
-std::string point_text(const Witness& witness)
+template <class Values>
+Record values_record(const Values& values)
 {
-    std::string text;
-    for (const auto& [name, value] : witness.point)
-        text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, to_text(value));
-    return text.empty() ? "every point" : text;
+    return object_of(values, [](const auto& value) { return to_text(value); });
 }
+
+void add_witness(Record& record, const std::optional<Witness>& witness)
+{
+    if (!witness) return;
+    record["witness"] = values_record(witness->point);
+    record["value"] = witness->value;
+}
+
+// What a check of a nonholonomic model says beside its verdict.
 
 std::string integrable_text(const Integrability& integrable)
 {
-    switch (integrable.status) {
-    case ProofStatus::proved:
-        return fmt::format("  {:<16}yes: brackets of sections lie in their span{}\n", "integrable",
-                           integrable.moves_with_time ? " at each t"
-                           : integrable.has_drift     ? ""
-                                                      : ", and kind = \"subbundle\" says more");
-    case ProofStatus::undecided: return fmt::format("  {:<16}not decided\n", "integrable");
-    case ProofStatus::refuted: break;
-    }
-    std::string text = fmt::format("  {:<16}no: [{}, {}] is {}\n", "integrable", integrable.bracket[0],
-                                   integrable.bracket[1], values_text(integrable.components));
-    text += fmt::format("  {:<16}{} is 0 on the sections\n", "", integrable.violates);
+    if (integrable.status != ProofStatus::refuted)
+        return labelled("integrable", integrable.status == ProofStatus::undecided ? "not decided"
+                                      : integrable.moves_with_time
+                                          ? "yes: brackets of sections lie in their span at each t"
+                                      : integrable.has_drift ? "yes: brackets of sections lie in their span"
+                                                             : "yes: brackets of sections lie in their span, and kind "
+                                                               "= \"subbundle\" says more");
+    const std::string components = comma_list(
+        integrable.components, [](const auto& entry) { return fmt::format("{} = {}", entry.first, entry.second); });
+    std::string text = labelled("integrable", fmt::format("no: [{}, {}] is {}", integrable.bracket[0],
+                                                          integrable.bracket[1], components)) +
+                       labelled("", integrable.violates + " is 0 on the sections");
     if (integrable.witness)
-        text += fmt::format("  {:<16}and {:.17g} on their bracket at {}\n", "", integrable.witness->value,
-                            point_text(*integrable.witness));
+        text += labelled("", fmt::format("and {:.17g} on their bracket at {}", integrable.witness->value,
+                                         values_text(integrable.witness->point)));
     return text;
-}
-
-std::string conserved_text(const ConservedEnergy& energy)
-{
-    const std::string name = energy.name == "energy" ? "energy" : "moving energy";
-    const char* what = energy.status == ProofStatus::proved    ? "conserved"
-                       : energy.status == ProofStatus::refuted ? "not conserved"
-                                                               : "not decided whether conserved";
-    return fmt::format("  {:<16}{}\n", name, what);
 }
 
 /// Empty for other models.
@@ -68,7 +74,9 @@ std::string nonholonomic_text(const MechanicsReport& mechanics)
 {
     std::string text;
     if (mechanics.integrable) text += integrable_text(*mechanics.integrable);
-    if (mechanics.conserved) text += conserved_text(*mechanics.conserved);
+    if (const auto& energy = mechanics.conserved)
+        text += labelled(energy->name == "energy" ? "energy" : "moving energy",
+                         said(energy->status, "conserved", "not conserved", "not decided whether conserved"));
     return text;
 }
 
@@ -79,12 +87,9 @@ void add_nonholonomic(Record& record, const MechanicsReport& mechanics)
         Record& member = record["integrable"] = {{"status", to_text(integrable->status)}};
         if (integrable->status == ProofStatus::refuted) {
             member["bracket"] = integrable->bracket;
-            member["is"] = object_of(integrable->components, [](const auto& value) { return value; });
+            member["is"] = object_of(integrable->components, std::identity());
             member["violates"] = integrable->violates;
-            if (integrable->witness) {
-                member["witness"] = object_of(integrable->witness->point, [](const auto& x) { return to_text(x); });
-                member["value"] = integrable->witness->value;
-            }
+            add_witness(member, integrable->witness);
         }
         if (integrable->status == ProofStatus::proved && !integrable->has_drift && !integrable->moves_with_time)
             member["hint"] = "D is a Lie algebroid: kind = \"subbundle\" says more of it";
@@ -95,79 +100,60 @@ void add_nonholonomic(Record& record, const MechanicsReport& mechanics)
 
 // Sentences that say what a check has decided.
 
-/// "a,b" of (A, a, b); "value" of a function.
-std::string component_of(const Check& check)
-{
-    std::string text;
-    for (std::size_t k = 1; k < check.indices.size(); ++k) text += (k == 1 ? "" : ",") + check.indices[k];
-    return text.empty() ? "value" : text;
-}
+/// The equation of a check with so many indices, {0} to {3}; {4} is its component, "a,b" of (A, a, b).
+struct Sentence {
+    const char* check;
+    std::size_t indices;
+    const char* text;
+};
 
-/// The equation that a claim of a morphism Phi over phi makes, in words of its indices.
-std::string map_equation_text(const Check& check)
-{
-    const std::vector<std::string>& k = check.indices;
-    if (check.name == "constraint" && k[0] == "Phi(D)") return "the rank of D' less that of Phi(D)";
-    if (check.name == "constraint" && k.size() == 2 && k[0].starts_with("Phi("))
-        return fmt::format("component {} of {} less its part along the constraint of the target", k[1], k[0]);
-    if (check.name == "constraint" && k.size() == 1)
-        return fmt::format("the constraint {} of the target at phi(x)", k[0]);
-    if (check.name == "admissible" && k.size() == 2)
-        return fmt::format("coordinate {1} of rho'(Phi({0})) - Tphi(rho({0}))", k[0], k[1]);
-    if (check.name == "morphism" && k.size() == 3)
-        return fmt::format("component {2} of [Phi({0}), Phi({1})] - Phi([{0}, {1}])", k[0], k[1], k[2]);
-    if (check.name == "invariance" && k.size() == 1)
-        return fmt::format("{0} of the source less {0} of the target along the map", k[0]);
-    if (check.name == "invariance" && k.size() == 2)
-        return fmt::format("{} of the source, component {}, less that of the target along the map", k[0], k[1]);
-    if (check.name == "target" && k.size() == 1)
-        return fmt::format("coordinate {} of the target of the image less phi(t(g))", k[0]);
-    if (check.name == "product" && k.size() == 2)
-        return fmt::format("entry {},{} of W'(g h) - W'(g) W'(h)", k[0], k[1]);
-    if (check.name == "unit" && k.size() == 2) return fmt::format("entry {},{} of W' - 1 at the arrows 1", k[0], k[1]);
-    if (check.name == "element") return "an entry of dW' at the arrows 1 outside of the algebra of the target's group";
-    if (check.name == "fibre" && k.size() == 2)
-        return fmt::format("component {} of Phi({}) as it is given less that of the map of arrows", k[0], k[1]);
-    return "";
-}
+constexpr std::size_t any_number = SIZE_MAX;
+
+constexpr Sentence sentences[] = {
+    {"antisymmetry", 3, "component {2} of [{0}, {1}] + [{1}, {0}]"},
+    {"anchor", 3, "component {2} of [rho({0}), rho({1})] - rho([{0}, {1}])"},
+    {"jacobi", 4, "component {3} of [{0}, [{1}, {2}]] + [{1}, [{2}, {0}]] + [{2}, [{0}, {1}]]"},
+    {"tangency", 2, "rho({0}) of the constraint {1}, on the constraints"},
+    {"casimir", 2, "rho({0}) of {1}"},
+    {"unit", 1, "coordinate {0} of x.1 less {0}"},
+    {"action", 2, "d/ds {1} of x.(W exp(s E)) less {1} of the field of the action at x.W, generator {0}"},
+    {"action", 1, "coordinate {0} of x.(W W') less (x.W).W'"},
+    {"algebroid_of_groupoid", 2, "coordinate {1} of rho({0}) as it is given less that of the groupoid"},
+    {"algebroid_of_groupoid", 3, "component {2} of [{0}, {1}] as it is given less that of the groupoid"},
+    {"constraint", 1, "the constraint {0} of the target at phi(x)"},
+    {"constraint", 2, "the linear part of {1} at the section {0}"},
+    {"admissible", 2, "coordinate {1} of rho'(Phi({0})) - Tphi(rho({0}))"},
+    {"morphism", 3, "component {2} of [Phi({0}), Phi({1})] - Phi([{0}, {1}])"},
+    {"invariance", 1, "{0} of the source less {0} of the target along the map"},
+    {"invariance", 2, "{0} of the source, component {1}, less that of the target along the map"},
+    {"target", 1, "coordinate {0} of the target of the image less phi(t(g))"},
+    {"product", 2, "entry {0},{1} of W'(g h) - W'(g) W'(h)"},
+    {"unit", 2, "entry {0},{1} of W' - 1 at the arrows 1"},
+    {"element", any_number, "an entry of dW' at the arrows 1 outside of the algebra of the target's group"},
+    {"fibre", 2, "component {1} of Phi({0}) as it is given less that of the map of arrows"},
+    {"closed", any_number, "component {4} of d({0})"},
+    {"equals", any_number, "component {4} of {0} less what it is said to equal"},
+    {"legendre", any_number, "H at mu = dL/dy less y dL/dy - L"},
+    {"maximum", any_number, "H = mu_a sigma^a - cost is largest at the controls of Pontryagin's equations"},
+    {"symmetry", any_number, "the derivative of the Lagrangian (Hamiltonian) along the complete lift of {0}"},
+    {"invariant", 1, "the rate of {0} along the equations of motion"},
+};
 
 /// The equation that a check decides, in sections by name; empty for kinds whose name says it.
 std::string equation_text(const Check& check)
 {
-    const std::vector<std::string>& k = check.indices;
+    std::vector<std::string> k = check.indices;
     if (!check.meaning.empty()) return check.meaning;
-    if (check.name == "antisymmetry" && k.size() == 3)
-        return fmt::format("component {2} of [{0}, {1}] + [{1}, {0}]", k[0], k[1], k[2]);
-    if (check.name == "anchor" && k.size() == 3)
-        return fmt::format("component {2} of [rho({0}), rho({1})] - rho([{0}, {1}])", k[0], k[1], k[2]);
-    if (check.name == "jacobi" && k.size() == 4)
-        return fmt::format("component {3} of [{0}, [{1}, {2}]] + [{1}, [{2}, {0}]] + [{2}, [{0}, {1}]]", k[0], k[1],
-                           k[2], k[3]);
-    if (check.name == "tangency" && k.size() == 2)
-        return fmt::format("rho({}) of the constraint {}, on the constraints", k[0], k[1]);
-    if (check.name == "casimir" && k.size() == 2) return fmt::format("rho({}) of {}", k[0], k[1]);
-    if (check.name == "unit" && k.size() == 1) return fmt::format("coordinate {0} of x.1 less {0}", k[0]);
-    if (check.name == "action" && k.size() == 2)
-        return fmt::format("d/ds {1} of x.(W exp(s E)) less {1} of the field of the action at x.W, generator {0}", k[0],
-                           k[1]);
-    if (check.name == "action" && k.size() == 1) return fmt::format("coordinate {} of x.(W W') less (x.W).W'", k[0]);
-    if (check.name == "algebroid_of_groupoid" && k.size() == 2)
-        return fmt::format("coordinate {1} of rho({0}) as it is given less that of the groupoid", k[0], k[1]);
-    if (check.name == "algebroid_of_groupoid" && k.size() == 3)
-        return fmt::format("component {2} of [{0}, {1}] as it is given less that of the groupoid", k[0], k[1], k[2]);
-    if (const std::string of_map = map_equation_text(check); !of_map.empty()) return of_map;
-    if (check.name == "constraint" && k.size() == 2)
-        return k[0] == "drift" ? fmt::format("{} at the drift", k[1])
-                               : fmt::format("the linear part of {} at the section {}", k[1], k[0]);
-    if (check.name == "closed" && !k.empty()) return fmt::format("component {} of d({})", component_of(check), k[0]);
-    if (check.name == "equals" && !k.empty())
-        return fmt::format("component {} of {} less what it is said to equal", component_of(check), k[0]);
-    if (check.name == "legendre") return "H at mu = dL/dy less y dL/dy - L";
-    if (check.name == "maximum") return "H = mu_a sigma^a - cost is largest at the controls of Pontryagin's equations";
-    if (check.name == "symmetry" && !k.empty())
-        return fmt::format("the derivative of the Lagrangian (Hamiltonian) along the complete lift of {}", k[0]);
-    if (check.name == "invariant" && k.size() == 1)
-        return fmt::format("the rate of {} along the equations of motion", k[0]);
+    if (check.name == "constraint" && k[0] == "Phi(D)") return "the rank of D' less that of Phi(D)";
+    if (check.name == "constraint" && k[0].starts_with("Phi(") && k.size() == 2)
+        return fmt::format("component {} of {} less its part along the constraint of the target", k[1], k[0]);
+    if (check.name == "constraint" && k[0] == "drift" && k.size() == 2) return k[1] + " at the drift";
+    const std::string component = k.size() < 2 ? "value" : comma_list(std::span(k).subspan(1), {}, ",");
+    const std::size_t count = k.size();
+    k.resize(4);
+    for (const Sentence& each : sentences)
+        if (check.name == each.check && (each.indices == any_number || each.indices == count))
+            return fmt::format(fmt::runtime(each.text), k[0], k[1], k[2], k[3], component);
     return "";
 }
 
@@ -178,56 +164,28 @@ const char* kind_text(Regularity::Kind kind)
     case Regularity::Kind::generically_regular: return "generically_regular";
     case Regularity::Kind::degenerate: return "degenerate";
     case Regularity::Kind::absent: return "absent";
-    case Regularity::Kind::undecided: return "undecided";
+    case Regularity::Kind::undecided: break;
     }
     return "undecided";
-}
-
-/// "x = 1, y = 3/5" of named values that have a text.
-template <class Values>
-std::string values_text(const Values& values, const char* prefix)
-{
-    return comma_list(values, [&](const auto& entry) {
-        return fmt::format("{}{} = {}", prefix, entry.first, to_text(entry.second));
-    });
-}
-
-std::string witness_text(const NamedPoint& point)
-{
-    return point.empty() ? "every point" : values_text(point, "");
-}
-
-std::string indices_text(const Check& check)
-{
-    return check.indices.empty() ? "" : fmt::format(" ({})", comma_list(check.indices));
 }
 
 /// The names of checks in order of first appearance.
 std::vector<std::string> kinds_of(const StructureReport& structure)
 {
     std::vector<std::string> kinds;
-    for (const Check& check : structure.checks) {
-        bool known = false;
-        for (const std::string& kind : kinds) known = known || kind == check.name;
-        if (!known) kinds.push_back(check.name);
-    }
+    for (const Check& check : structure.checks)
+        if (std::ranges::find(kinds, check.name) == kinds.end()) kinds.push_back(check.name);
     return kinds;
 }
 
-/// How many checks of a kind (of every kind: "") have each status.
-std::array<std::size_t, 3> counts_of(const StructureReport& structure, const std::string& kind)
-{
-    std::array<std::size_t, 3> counts{};
-    for (const Check& check : structure.checks)
-        if (kind.empty() || check.name == kind) ++counts[static_cast<std::size_t>(check.decision.status)];
-    return counts;
-}
-
-std::string counts_text(const std::array<std::size_t, 3>& counts)
+/// "3 proved, 1 refuted" of the checks of a kind (of every kind: "").
+std::string counts_text(const StructureReport& structure, const std::string& kind)
 {
     return comma_list(std::array{ProofStatus::proved, ProofStatus::refuted, ProofStatus::undecided},
                       [&](ProofStatus status) {
-                          const std::size_t count = counts[static_cast<std::size_t>(status)];
+                          const auto count = std::ranges::count_if(structure.checks, [&](const Check& check) {
+                              return (kind.empty() || check.name == kind) && check.decision.status == status;
+                          });
                           return count == 0 ? "" : fmt::format("{} {}", count, to_text(status));
                       });
 }
@@ -235,22 +193,22 @@ std::string counts_text(const std::array<std::size_t, 3>& counts)
 /// "24 equations zero by structure, 12 proved"
 std::string summary_text(const StructureReport& structure)
 {
-    const std::string counts = counts_text(counts_of(structure, ""));
     const std::string trivial = structure.trivial == 0 ? ""
                                                        : fmt::format("{} {} zero by structure", structure.trivial,
                                                                      structure.trivial == 1 ? "equation" : "equations");
-    if (trivial.empty() && counts.empty()) return "";
-    return fmt::format("  {}\n", comma_list(std::array{trivial, counts}));
+    const std::string text = comma_list(std::array{trivial, counts_text(structure, "")});
+    return text.empty() ? "" : fmt::format("  {}\n", text);
 }
 
 std::string failure_text(const Check& check, bool with_hint)
 {
     const Decision& decision = check.decision;
-    std::string text = fmt::format("\n{}: {}{}\n", to_text(decision.status), check.name, indices_text(check));
+    const std::string indices = check.indices.empty() ? "" : fmt::format(" ({})", comma_list(check.indices));
+    std::string text = fmt::format("\n{}: {}{}\n", to_text(decision.status), check.name, indices);
     if (const std::string equation = equation_text(check); !equation.empty()) text += fmt::format("  {}\n", equation);
     if (!decision.residual.empty()) text += fmt::format("  residual {}\n", decision.residual);
     if (decision.witness)
-        text += fmt::format("  at {}: {:.17g}\n", witness_text(decision.witness->point), decision.witness->value);
+        text += fmt::format("  at {}: {:.17g}\n", values_text(decision.witness->point), decision.witness->value);
     if (!decision.evidence.empty()) text += fmt::format("  known: {}\n", decision.evidence);
     if (with_hint) text += fmt::format("  hint: {}\n", check.hint);
     return text;
@@ -287,94 +245,57 @@ std::string failures_text(const StructureReport& structure, ProofStatus status)
     return text;
 }
 
-/// Which matrix it is, where it is not d2L/dy2.
-const char* matrix_text(Regularity::Matrix matrix)
+/// The matrix whose rank it is, where that is not d2L/dy2: its name, and what more a person is told of it.
+std::pair<const char*, const char*> matrix_of(Regularity::Matrix matrix)
 {
     switch (matrix) {
     case Regularity::Matrix::lagrangian: break;
-    case Regularity::Matrix::hamiltonian: return "d2H/dmu2: the model has no Lagrangian";
-    case Regularity::Matrix::constrained: return "d2L/dY2 on the constraint";
-    case Regularity::Matrix::newton: return "N_ab = <-e_b(F^-L_a) of the discrete Lagrangian";
+    case Regularity::Matrix::hamiltonian: return {"d2H/dmu2", "d2H/dmu2: the model has no Lagrangian"};
+    case Regularity::Matrix::constrained: return {"d2L/dY2 on D", "d2L/dY2 on the constraint"};
+    case Regularity::Matrix::newton: return {"N", "N_ab = <-e_b(F^-L_a) of the discrete Lagrangian"};
     }
-    return "";
+    return {"", ""};
 }
 
 std::string regularity_text(const Regularity& regularity)
 {
     if (regularity.kind == Regularity::Kind::absent) return "";
     if (regularity.is_first_order())
-        return fmt::format("  {:<16}H is affine in the momenta: a first-order system ẋ = ρ(∂H/∂μ), with costates\n",
-                           "regularity");
+        return labelled("regularity", "H is affine in the momenta: a first-order system ẋ = ρ(∂H/∂μ), with costates");
     const std::string rank =
         regularity.kind == Regularity::Kind::undecided ? "" : fmt::format(", rank {}", regularity.rank);
-    std::string text = fmt::format("  {:<16}{}{}{}{}\n", "regularity", kind_text(regularity.kind), rank,
-                                   regularity.positive_definite ? ", positive definite" : "",
-                                   regularity.for_given_parameters ? " (for the parameter values of the file)" : "");
-    if (const char* matrix = matrix_text(regularity.of); *matrix != '\0')
-        text += fmt::format("  {:<16}of {}\n", "", matrix);
+    std::string text = labelled(
+        "regularity", fmt::format("{}{}{}{}", kind_text(regularity.kind), rank,
+                                  regularity.positive_definite ? ", positive definite" : "",
+                                  regularity.for_given_parameters ? " (for the parameter values of the file)" : ""));
+    const auto add = [&](const std::string& value) { text += value.empty() ? "" : labelled("", value); };
+    if (const char* matrix = matrix_of(regularity.of).second; *matrix != '\0') add(fmt::format("of {}", matrix));
     if (regularity.kind == Regularity::Kind::degenerate && regularity.of != Regularity::Matrix::hamiltonian)
-        text += fmt::format("  {:<16}`generate` and `run` refuse a degenerate Lagrangian\n", "");
-    for (const auto& vector : regularity.kernel)
-        text += fmt::format("  {:<16}kernel vector {}\n", "", values_text(vector, "k_"));
-    if (!regularity.evidence.empty()) text += fmt::format("  {:<16}{}\n", "", regularity.evidence);
+        add("`generate` and `run` refuse a degenerate Lagrangian");
+    for (const auto& vector : regularity.kernel) add("kernel vector " + values_text(vector, "k_"));
+    add(regularity.evidence);
     const std::string equations = comma_list(
         regularity.singular_where, [](const std::string& factor) { return factor + " = 0"; }, " or ");
-    if (!equations.empty()) text += fmt::format("  {:<16}singular where {}\n", "", equations);
-    if (regularity.singular_everywhere)
-        text += fmt::format("  {:<16}singular everywhere for the parameter values of the file\n", "");
-    for (const NamedPoint& point : regularity.singular_at)
-        text += fmt::format("  {:<16}singular at {}\n", "", witness_text(point));
-    if (!regularity.coordinates.empty()) text += fmt::format("  {:<16}{}\n", "", regularity.coordinates);
+    if (!equations.empty()) add("singular where " + equations);
+    if (regularity.singular_everywhere) add("singular everywhere for the parameter values of the file");
+    for (const NamedPoint& point : regularity.singular_at) add("singular at " + values_text(point));
+    add(regularity.coordinates);
     return text;
 }
 
-const char* closed_text(ProofStatus closed)
-{
-    if (closed == ProofStatus::undecided) return "not decided whether closed";
-    return closed == ProofStatus::proved ? "closed" : "not closed";
-}
-
-const char* lifts_text(ProofStatus lifts)
-{
-    if (lifts == ProofStatus::undecided) return "not decided whether integral curves of ρ(∂H/∂μ ∘ α) lift to solutions";
-    return lifts == ProofStatus::proved
-               ? "along integral curves of ρ(∂H/∂μ ∘ α) the momenta α solve Hamilton's equations"
-               : "along integral curves of ρ(∂H/∂μ ∘ α) the momenta α do not solve Hamilton's equations";
-}
-
-const char* action_text(ProofStatus action)
-{
-    if (action == ProofStatus::undecided) return "not decided whether ∫ (L + H) dt along them is the integral of α";
-    return action == ProofStatus::proved
-               ? "along them ∫ (L + H) dt is the integral of α: S(x(t₁)) - S(x(t₀)) where α = dS"
-               : "along them ∫ (L + H) dt is not the integral of α";
-}
-
-/// How a proved maximum is known, where more is to be said of it than its name says.
-std::string maximum_text(const StructureReport& structure)
+/// What is said of checks of a kind that are proved: where alone, or how the maximum is known.
+std::string proved_text(const StructureReport& structure, const std::string& kind)
 {
     std::string text;
-    for (const Check& check : structure.checks)
-        if (check.name == "maximum" && check.decision.status == ProofStatus::proved && !check.decision.evidence.empty())
-            text += fmt::format("  {:<16}{}\n", "", check.decision.evidence);
+    for (const Check& check : structure.checks) {
+        if (check.name != kind) continue;
+        if (!check.where.empty())
+            text += labelled("", fmt::format("{} where {}; may change where a motion crosses",
+                                             comma_list(check.indices), comma_list(check.where, {}, " and ")));
+        if (kind == "maximum" && check.decision.status == ProofStatus::proved && !check.decision.evidence.empty())
+            text += labelled("", check.decision.evidence);
+    }
     return text;
-}
-
-/// "x != 0 and y > 0" of each check that is proved there alone.
-std::string where_text(const StructureReport& structure, const std::string& kind)
-{
-    std::string text;
-    for (const Check& check : structure.checks)
-        if (check.name == kind && !check.where.empty())
-            text += fmt::format("  {:<16}{} where {}; may change where a motion crosses\n", "",
-                                fmt::join(check.indices, ", "), fmt::join(check.where, " and "));
-    return text;
-}
-
-template <class Values>
-Record values_record(const Values& values)
-{
-    return object_of(values, [](const auto& value) { return to_text(value); });
 }
 
 Record record_of(const Check& check)
@@ -384,26 +305,11 @@ Record record_of(const Check& check)
                      {"indices", check.indices},
                      {"status", to_text(decision.status)},
                      {"residual", decision.residual}};
-    if (decision.witness) {
-        record["witness"] = values_record(decision.witness->point);
-        record["value"] = decision.witness->value;
-    }
+    add_witness(record, decision.witness);
     add_unless_empty(record, "where", check.where);
     add_unless_empty(record, "evidence", decision.evidence);
     add_unless_empty(record, "hint", check.hint);
     return record;
-}
-
-/// The matrix whose rank it is, where that is not d2L/dy2.
-const char* matrix_name(Regularity::Matrix matrix)
-{
-    switch (matrix) {
-    case Regularity::Matrix::lagrangian: break;
-    case Regularity::Matrix::hamiltonian: return "d2H/dmu2";
-    case Regularity::Matrix::constrained: return "d2L/dY2 on D";
-    case Regularity::Matrix::newton: return "N";
-    }
-    return "";
 }
 
 Record record_of(const Regularity& regularity)
@@ -414,7 +320,7 @@ Record record_of(const Regularity& regularity)
                      {"for_given_parameters", regularity.for_given_parameters}};
     add_unless_empty(record, "evidence", regularity.evidence);
     add_unless_empty(record, "coordinates", regularity.coordinates);
-    add_unless_empty(record, "of", std::string(matrix_name(regularity.of)));
+    add_unless_empty(record, "of", std::string(matrix_of(regularity.of).first));
     const auto values = [](const auto& each) { return values_record(each); };
     if (regularity.kind == Regularity::Kind::degenerate) record["kernel"] = list_of(regularity.kernel, values);
     record["singular_everywhere"] = regularity.singular_everywhere;
@@ -438,11 +344,8 @@ ExitCode code_of(Verdict verdict)
 std::string claims_text(const StructureReport& structure)
 {
     std::string text = summary_text(structure);
-    for (const std::string& kind : kinds_of(structure)) {
-        text += fmt::format("  {:<15} {}\n", kind, counts_text(counts_of(structure, kind)));
-        text += where_text(structure, kind);
-        if (kind == "maximum") text += maximum_text(structure);
-    }
+    for (const std::string& kind : kinds_of(structure))
+        text += labelled(kind, counts_text(structure, kind)) + proved_text(structure, kind);
     return text;
 }
 
@@ -456,10 +359,21 @@ std::string report_text(const std::string& model, const Report& verified)
     const StructureReport& structure = verified.structure;
     std::string text = fmt::format("{}: {}\n{}", model, to_text(structure.verdict), claims_text(structure));
     for (const FormReport& form : structure.forms)
-        text += fmt::format("  {:<16}degree {}, {}\n", "form " + form.name, form.degree, closed_text(form.closed));
+        text += labelled("form " + form.name,
+                         fmt::format("degree {}, {}", form.degree,
+                                     said(form.closed, "closed", "not closed", "not decided whether closed")));
     if (const auto& candidate = structure.hamilton_jacobi) {
-        text += fmt::format("  {:<16}{}\n", "solutions", lifts_text(candidate->lifts));
-        if (candidate->action) text += fmt::format("  {:<16}{}\n", "action", action_text(*candidate->action));
+        text += labelled("solutions",
+                         said(candidate->lifts,
+                              "along integral curves of ρ(∂H/∂μ ∘ α) the momenta α solve Hamilton's equations",
+                              "along integral curves of ρ(∂H/∂μ ∘ α) the momenta α do not solve Hamilton's equations",
+                              "not decided whether integral curves of ρ(∂H/∂μ ∘ α) lift to solutions"));
+        if (candidate->action)
+            text += labelled("action",
+                             said(*candidate->action,
+                                  "along them ∫ (L + H) dt is the integral of α: S(x(t₁)) - S(x(t₀)) where α = dS",
+                                  "along them ∫ (L + H) dt is not the integral of α",
+                                  "not decided whether ∫ (L + H) dt along them is the integral of α"));
     }
     for (const Regularity* each : {&verified.mechanics.discrete, &verified.mechanics.regularity})
         text += regularity_text(*each);

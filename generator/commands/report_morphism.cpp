@@ -2,9 +2,9 @@
 #include "commands/report_morphism.hpp"
 
 #include "advice/advise.hpp"
-#include "commands/machine/write_file.hpp"
 #include "commands/report_check.hpp"
 #include "elaborate/elaborate_morphism.hpp"
+#include "machine/write_file.hpp"
 #include "pipeline.hpp"
 
 #include <fmt/format.h>
@@ -76,9 +76,7 @@ std::string rank_text(const GenericRank& rank)
 std::string extent_text(const MorphismReport& map)
 {
     std::string text;
-    const auto line = [&](const char* name, const std::string& words) {
-        text += fmt::format("  {:<15} {}\n", name, words);
-    };
+    const auto line = [&](const char* name, const std::string& words) { text += labelled(name, words); };
     if (!map.reach.obstacle.empty())
         line("domain", "a part of the source: there the map is continuous and reaches the target's domain");
     else if (!map.reach.where.empty())
@@ -167,13 +165,15 @@ std::string morphism_text(const VerifiedMorphism& verified)
 {
     std::string out =
         fmt::format("{}: {}\n{}", verified.name, to_text(verdict_of(verified)), claims_text(verified.map.structure));
-    out += fmt::format("  {:<15} {}\n", "fibrewise rank", rank_text(verified.map.rank)) + extent_text(verified.map);
-    for (const VerifiedMorphism& stage : verified.stages)
-        out += fmt::format("  {:<15} {}: {}\n", "stage", stage.name, to_text(verdict_of(stage)));
-    out += fmt::format("  {:<15} {}: {}\n", "source", verified.source_name, to_text(verified.source.structure.verdict));
-    out += fmt::format("  {:<15} {}: {}\n", "target", verified.target_name, to_text(verified.target.structure.verdict));
+    out += labelled("fibrewise rank", rank_text(verified.map.rank)) + extent_text(verified.map);
+    const auto add = [&](const char* label, const std::string& name, Verdict verdict) {
+        out += labelled(label, fmt::format("{}: {}", name, to_text(verdict)));
+    };
+    for (const VerifiedMorphism& stage : verified.stages) add("stage", stage.name, verdict_of(stage));
+    add("source", verified.source_name, verified.source.structure.verdict);
+    add("target", verified.target_name, verified.target.structure.verdict);
     for (const Consequence& each : consequences(verified))
-        if (each.holds) out += fmt::format("  {:<15} {}\n", each.name, each.text);
+        if (each.holds) out += labelled(each.name, each.text);
     out += failures_text(verified.map.structure);
     for (const VerifiedMorphism& stage : verified.stages)
         if (verdict_of(stage) != Verdict::valid) out += "\n" + morphism_text(stage);

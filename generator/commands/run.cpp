@@ -3,14 +3,9 @@
 #include "commands/chart/accuracy.hpp"
 #include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
-#include "commands/line/values.hpp"
-#include "commands/machine/places.hpp"
-#include "commands/machine/temporary_folder.hpp"
-#include "commands/machine/write_file.hpp"
-#include "commands/plot/overlay.hpp"
+#include "commands/plot/draw_scene.hpp"
 #include "commands/run_morphism.hpp"
 #include "commands/scene/integrate_scene.hpp"
-#include "commands/scene/partial_rows.hpp"
 #include "commands/scene/scene_options.hpp"
 #include "commands/scene/scene_run.hpp"
 #include "commands/scene/second_run.hpp"
@@ -18,14 +13,15 @@
 #include "elaborate/bind_parameters.hpp"
 #include "elaborate/elaborate.hpp"
 #include "elaborate/variational_model.hpp"
+#include "machine/places.hpp"
+#include "machine/temporary_folder.hpp"
+#include "machine/write_file.hpp"
 #include "model/plain_names.hpp"
 #include "model/read_file.hpp"
 #include "model/scene_form.hpp"
 
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <list>
 #include <unistd.h>
 
 namespace lagen {
@@ -43,14 +39,13 @@ const CommandSyntax run_syntax{
     {{"scene", "NAME",
       "the scene; without it `default`, else the first; of several --plot draws all in the panels of the last"},
      {"form", "FORM", run_form_help.c_str()},
-     {"method", "METHOD", "see `lagen methods`; without it the scene's, else dop853"},
-     {"step", "H", "step of a fixed-step method"},
-     {"time-scale", "EXPR",
-      "of a splitting: steps of H times this function of the state, so chosen that runs stay reversible"},
-     {"tolerance", "TOL", "relative and absolute tolerance of an adaptive method; without it the scene's, else 1e-10"},
+     option::method,
+     option::step,
+     option::time_scale,
+     option::tolerance,
      {"accuracy", "E",
       "largest error of the rows, relative to the state: method and tolerance from a chart of the scene"},
-     {"t-end", "T", "end of the run, backwards where it lies before the start; without it the scene's duration"},
+     option::t_end,
      {"at", "T1,T2,..",
       "rows at exactly these times; without --t-end the run ends with the scene's duration or the last of them, "
       "whichever is later"},
@@ -127,23 +122,6 @@ void tell(const Options& options, const RunOutcome& outcome, const std::vector<s
     write_standard_error(start_note(outcome) + run_warnings(outcome));
 }
 
-/// Draws the picture of --plot, and answers a sentence on it; `whole` becomes false where one of the runs drawn beside
-/// did not come to its end.
-std::string draw(const Options& options, const SceneRun& run, const RunOutcome& outcome,
-                 const std::vector<std::string>& overlaid, bool& whole)
-{
-    if (!options.has("plot")) return "";
-    std::vector<PlottedRun> runs{{run.checked().model, run.scene(), run.record(), run.input(), outcome.table.count()}};
-    std::list<OverlaidRun> others;
-    for (const std::string& name : overlaid) {
-        const OverlaidRun& other = others.emplace_back(options, run.checked(), run.scene(), name);
-        runs.push_back(other.plotted());
-        whole = whole && succeeded(other.outcome().status);
-        write_standard_error(report_text(other.outcome()) + run_warnings(other.outcome()));
-    }
-    return draw_scene(runs, options.get("plot"));
-}
-
 } // namespace
 
 ExitCode run_run(Arguments arguments)
@@ -180,7 +158,7 @@ ExitCode run_run(Arguments arguments)
         bind_in_scene(checked.model, find_scene(model, options.get("scene")));
     const std::optional<AccurateMethod> accurate = accurate_method(options, checked, path);
     Scene scene = scene_of(options, model, options.named("initial"));
-    const std::vector<std::string> overlaid = overlaid_scenes(options, model, scene);
+    const std::vector<std::string> beside = scenes_beside(options, model, scene);
     const bool stretch = options.has("at") && !options.has("t-end");
     const VariationRequest variations = variations_of(options);
     if (variations.any()) require_no_jumps(scene, "variations are taken");
@@ -204,7 +182,9 @@ ExitCode run_run(Arguments arguments)
     if (const std::string file = options.get("output"); !file.empty())
         write_file(file, file.ends_with(".json") ? report_json(outcome) + "\n" : to_csv(outcome.table, known));
     std::string picture;
-    const bool drawn = is_uninterrupted([&] { picture = draw(options, run, outcome, overlaid, whole); });
+    const bool drawn = is_uninterrupted([&] {
+        if (options.has("plot")) picture = draw_scene(options, run, outcome, beside, whole);
+    });
     tell(options, outcome, known, picture, as_json);
     if (!drawn) throw InterruptedError("lagen: interrupted while drawing");
     return succeeded(outcome.status) && whole ? ExitCode::done : ExitCode::refuted;

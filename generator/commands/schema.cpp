@@ -3,7 +3,7 @@
 #include "model/schema.hpp"
 #include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
-#include "commands/machine/write_file.hpp"
+#include "machine/write_file.hpp"
 
 namespace lagen {
 

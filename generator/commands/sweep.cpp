@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// `lagen sweep`: one scene from many starts and with many parameters, a row for each.
 #include "commands/line/command.hpp"
-#include "commands/machine/compile.hpp"
-#include "commands/machine/places.hpp"
-#include "commands/machine/write_file.hpp"
 #include "commands/scene/preparation.hpp"
 #include "commands/scene/run_report.hpp"
 #include "commands/scene/scene_options.hpp"
 #include "commands/sweep/sweep_run.hpp"
 #include "elaborate/bind_parameters.hpp"
+#include "machine/compile.hpp"
+#include "machine/places.hpp"
+#include "machine/write_file.hpp"
 #include "model/scene_form.hpp"
 
 #include <fmt/format.h>
@@ -40,11 +40,11 @@ const CommandSyntax sweep_syntax{
      {"merge", nullptr, "put the parts of a sweep together"},
      option::scene,
      {"form", "FORM", sweep_form_help.c_str()},
-     {"method", "METHOD", "see `lagen methods`; without it the scene's, else dop853"},
-     {"step", "H", "step of a fixed-step method"},
-     {"time-scale", "EXPR", "of a splitting: steps of H times this function of the state, as in `lagen run`"},
-     {"tolerance", "TOL", "relative and absolute tolerance of an adaptive method; without it the scene's, else 1e-10"},
-     {"t-end", "T", "end of each run; without it the scene's duration"},
+     option::method,
+     option::step,
+     option::time_scale,
+     option::tolerance,
+     option::t_end,
      option::unchecked}};
 
 /// The command line without the options that the rows do not depend on, in one line.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Integrates compiled models in the process, by methods that are instantiated once. The files of this room are
 /// compiled with the options that round every sum and product by itself, whatever the build says, so that rows have the
-/// bits of a program that was compiled with the header (commands/machine/compile.hpp: rounding_options).
+/// bits of a program that was compiled with the header (machine/compile.hpp: rounding_options).
 #pragma once
 
 #include "lagen_run/job.hpp"

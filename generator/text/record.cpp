@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "text/record.hpp"
 
+#include "text/comma_list.hpp"
+
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace lagen {
@@ -61,6 +64,42 @@ std::string with_member(std::string object, std::string_view name, std::string_v
 {
     object.pop_back();
     return fmt::format("{}{}{}: {}}}", object, object.size() > 1 ? ", " : "", dumped(name), json);
+}
+
+std::string labelled(std::string_view label, std::string_view value)
+{
+    return fmt::format("  {:<15} {}\n", label, value);
+}
+
+std::string value_text(const Record& value, std::string_view format)
+{
+    if (value.is_null()) return "";
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_number_float()) {
+        const auto number = value.get<double>();
+        return fmt::format(fmt::runtime(fmt::format("{{:{}}}", format)), number == 0 ? 0 : number); // no -0
+    }
+    if (value.is_object())
+        return comma_list(value.items(), [&](const auto& each) {
+            return fmt::format("{} = {}", each.key(), value_text(each.value(), format));
+        });
+    return value.is_array() ? comma_list(value, [&](const Record& each) { return value_text(each, format); })
+                            : value.dump();
+}
+
+std::string filled(std::string_view text, const Record& record)
+{
+    std::string out;
+    for (std::size_t begin = 0, at = 0;; begin = at + 1) {
+        at = text.find('{', begin);
+        out += text.substr(begin, at - begin);
+        if (at == std::string_view::npos) return out;
+        const std::size_t end = text.find('}', at), colon = std::min(text.find(':', at), end);
+        const auto member = record.find(std::string(text.substr(at + 1, colon - at - 1)));
+        if (member != record.end())
+            out += colon == end ? value_text(*member) : value_text(*member, text.substr(colon + 1, end - colon - 1));
+        at = end;
+    }
 }
 
 } // namespace lagen

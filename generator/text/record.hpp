@@ -20,6 +20,16 @@ using Record = nlohmann::ordered_json;
 /// The text of an object with one member more, whose value is JSON already: long tables are not kept as trees.
 [[nodiscard]] std::string with_member(std::string object, std::string_view name, std::string_view json);
 
+/// A line of a report for people: "  LABEL          VALUE", where an empty label goes on with the one above.
+[[nodiscard]] std::string labelled(std::string_view label, std::string_view value);
+
+/// A value for people: numbers with 12 digits or by a format of fmt (".3g"), texts as they are, lists "1, 2", objects
+/// "x = 1, y = 2", what is not there "".
+[[nodiscard]] std::string value_text(const Record& value, std::string_view format = ".12g");
+
+/// `text` with such a value in the place of each {NAME} or {NAME:FORMAT}, a member of `record`.
+[[nodiscard]] std::string filled(std::string_view text, const Record& record);
+
 template <class Value>
 [[nodiscard]] Record or_null(const std::optional<Value>& value)
 {

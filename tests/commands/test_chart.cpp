@@ -8,8 +8,7 @@
 #include "support/tolerances.hpp"
 
 #include "commands/chart/accuracy.hpp"
-#include "commands/chart/measure.hpp"
-#include "commands/chart/picture.hpp"
+#include "commands/chart/chart.hpp"
 #include "commands/chart/report.hpp"
 
 #include <catch2/catch.hpp>

@@ -245,3 +245,15 @@ TEST_CASE("the help of generate lists the kernels, and one that the form does no
           "energy, lagrangian, observables, events, jacobian, variational, taylor, event_series, "
           "lagrangian_hessian\n");
 }
+
+TEST_CASE("--report prints the operations of each kernel as written and as kept, and does not change the header",
+          "[long]")
+{
+    const Outcome plain = call({"generate", "double_pendulum.toml"});
+    const Outcome summary = call({"generate", "--report", "double_pendulum.toml"});
+    CHECK(plain.err.empty());
+    CHECK(summary.out == plain.out);
+    CHECK_THAT(summary.err, Catch::StartsWith("operations ") && Catch::Contains("\nmass_matrix, as written ") &&
+                                Catch::Contains("\n  kept ") && Catch::Contains("\n    weighs ") &&
+                                Catch::Contains("\nobservables, kept as written "));
+}

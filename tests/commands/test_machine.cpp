@@ -2,9 +2,9 @@
 /// What the machine may lack: a compiler, room on a disk, somebody who reads, patience.
 #include "program.hpp"
 
-#include "commands/machine/activity_watch.hpp"
 #include "lagen_run/archive.hpp"
 #include "lagen_run/report.hpp"
+#include "machine/activity_watch.hpp"
 #include "support/golden.hpp"
 #include "text/activity.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Methods that are part of lagen: the options with which they are compiled, and their bits beside those of a program.
-#include "commands/machine/compile.hpp"
 #include "commands/program.hpp"
+#include "machine/compile.hpp"
 #include "methods/integrate_compiled.hpp"
 
 #include <catch2/catch.hpp>

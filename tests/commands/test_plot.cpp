@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Pictures of runs: curves with no more points than are seen, labels, spheres and boxes, and `lagen run --plot`.
 #include "commands/plot/labels.hpp"
-#include "commands/plot/page.hpp"
 #include "commands/plot/panel.hpp"
-#include "commands/plot/projection.hpp"
-#include "commands/plot/thinned.hpp"
-#include "commands/plot/ticks.hpp"
 #include "commands/program.hpp"
 #include "support/golden.hpp"
 
@@ -18,8 +14,9 @@
 #include <regex>
 
 using namespace lagen::testing;
-using lagen::PanelRequest;
-using lagen::Polyline;
+using lagen::Panel;
+using lagen::Pen;
+using lagen::PlotPoint;
 using lagen::SampledCurve;
 using lagen::Symbol;
 using Strings = std::vector<std::string>;
@@ -37,23 +34,21 @@ SampledCurve circle(double radius, double height, int parts)
     return curve;
 }
 
-/// A curve with coordinates of these names.
-PanelRequest panel(const SampledCurve& curve, const Strings& names)
+/// What gnuplot is told of one curve with axes of these names.
+std::string script_of(const SampledCurve& curve, const Strings& labels, std::optional<bool> sphere = {})
 {
-    PanelRequest request;
-    request.curves = {curve};
-    request.symbols.emplace_back();
-    for (const std::string& name : names) request.symbols[0].push_back({name, {}, {}, {}, {}});
-    return request;
+    Panel panel;
+    panel.curves = {curve};
+    panel.legends = {""};
+    panel.labels = labels;
+    panel.sphere = sphere;
+    return lagen::page_script({panel}, "title", "picture.svg");
 }
 
-/// The points of the strokes whose style has `part` in it.
-std::size_t points_in(const lagen::Drawing& drawing, const std::string& part)
+std::size_t count_of(const std::string& text, const std::string& part)
 {
     std::size_t count = 0;
-    for (const lagen::Stroke& stroke : drawing.strokes)
-        if (stroke.style.find(part) != std::string::npos)
-            for (const Polyline& line : stroke.lines) count += line.size();
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
     return count;
 }
 
@@ -65,29 +60,27 @@ std::size_t vertices(const std::string& svg)
         std::distance(std::sregex_iterator(svg.begin(), svg.end(), vertex), std::sregex_iterator()));
 }
 
-constexpr const char* blue = "lines linecolor rgb '#0072b2'";
-constexpr const char* pale_blue = "#aad0e6";
-
 } // namespace
 
 TEST_CASE("a curve keeps its ends and what is seen of it, and no more")
 {
-    const lagen::Polyline whole = lagen::pieces_of(circle(1, 0, 20000))[0];
-    const lagen::Polyline kept = lagen::thinned(whole, {200, 200});
-    // A chord of the angle a is r (1 - cos(a/2)) away from its arc: 0.15 of 200 pixels need 57 of them.
-    CHECK((kept.size() > 57 && kept.size() < 200));
-    CHECK((kept.front().x == 1 && kept.back().x == Approx(1)));
-    for (const lagen::Point& point : kept) CHECK(std::hypot(point.x, point.y) == Approx(1));
-    CHECK(lagen::thinned(whole, {2000, 2000}).size() > kept.size() + 100);
-    CHECK(lagen::thinned({{0, 0}, {1, 1}, {2, 2}, {3, 3}}, {100, 100}).size() == 2);
-    CHECK(lagen::distinct({{0, 0}, {0.001, 0}, {0.1, 0}, {0, 0.0001}}, {100, 100}).size() == 2);
+    const SampledCurve whole = circle(1, 0, 20000);
+    const std::vector<SampledCurve> kept = lagen::seen_pieces(whole, lagen::box_of({whole}), Pen::line);
+    REQUIRE(kept.size() == 1);
+    // A chord of the angle a is r (1 - cos(a/2)) away from its arc: 1/4000 of the breadth 2 r needs 100 of them.
+    CHECK((kept[0].size() > 100 && kept[0].size() < 300));
+    CHECK((kept[0].front()[0] == 1 && kept[0].back()[0] == Approx(1)));
+    for (const PlotPoint& point : kept[0]) CHECK(std::hypot(point[0], point[1]) == Approx(1));
+    const SampledCurve line{{0, 0, 0}, {1, 1, 0}, {2, 2, 0}, {3, 3, 0}}, near{{0, 0, 0}, {1e-5, 0, 0}, {1, 0, 0}};
+    CHECK(lagen::seen_pieces(line, lagen::box_of({line}), Pen::line)[0].size() == 2);
+    CHECK(lagen::seen_pieces(near, lagen::box_of({near}), Pen::points)[0].size() == 2);
 }
 
 TEST_CASE("what is no finite number is a gap of the curve")
 {
     SampledCurve curve = circle(1, 0, 8);
     curve[3][1] = NAN;
-    const std::vector<Polyline> pieces = lagen::pieces_of(curve);
+    const std::vector<SampledCurve> pieces = lagen::seen_pieces(curve, lagen::box_of({curve}), Pen::line);
     REQUIRE(pieces.size() == 2);
     CHECK((pieces[0].size() == 3 && pieces[1].size() == 5));
 }
@@ -101,116 +94,66 @@ TEST_CASE("labels have LaTeX in characters, texts where there is room, and one u
     CHECK(lagen::characters_of_latex("q^2").empty());
     const Symbol angle{"th", {}, "angle of the rod", "rad", "\\theta"}, first{"x[1]", {}, "", "m", ""};
     const Symbol second{"x[2]", {}, "", "m", ""}, height{"z", {}, "height", "m", ""}, time{"t", {}, "", "s", ""};
-    CHECK(lagen::axis_label({angle}, 500, true) == "angle of the rod, θ [rad]");
-    CHECK(lagen::axis_label({angle}, 60, true) == "θ [rad]");
-    CHECK(lagen::axis_label({angle}, 30, true) == "θ");
-    CHECK(lagen::axis_label({first, second, first}, 500, true) == "x [m]");
-    CHECK(lagen::axis_label({first, height}, 500, true) == "x[1], z [m]");
-    CHECK(lagen::axis_label({first, angle}, 500, true) == "x[1], θ");
-    const Symbol formula{"2*sqrt(g/l)*cos(th/2)", {}, "", "", ""};
-    CHECK(lagen::axis_label({angle, formula}, 160, true) == "θ [rad], ...");
-    CHECK(lagen::axis_label({{"F", {}, "", "kg^2 m/s^-12", ""}}, 500, true) == "F [kg² m/s⁻¹²]");
+    CHECK(lagen::axis_label({angle}) == "angle of the rod, θ [rad]");
+    CHECK(lagen::axis_label({{"th", {}, std::string(40, 'm'), "rad", "\\theta"}}) == "θ [rad]");
+    CHECK(lagen::axis_label({first, second, first}) == "x [m]");
+    CHECK(lagen::axis_label({first, height}) == "x[1], z [m]");
+    CHECK(lagen::axis_label({first, angle}) == "x[1], θ");
+    CHECK(lagen::axis_label({angle, {"2*sqrt(g/l)*cos(th/2)+2*sqrt(g/l)*cos(th/2)", {}, "", "", ""}}) ==
+          "θ [rad], ...");
+    CHECK(lagen::axis_label({{"F", {}, "", "kg^2 m/s^-12", ""}}) == "F [kg² m/s⁻¹²]");
+    CHECK(lagen::axis_label({{std::string(99, 'q'), {}, "", "", ""}}) == std::string(37, 'q') + "...");
     CHECK(lagen::legends_of({{time, first}, {time, second}}) == Strings{"x[1]", "x[2]"});
     CHECK(lagen::legends_of({{time, first}, {time, angle}}) == Strings{"x[1] [m]", "θ [rad]"});
     CHECK(lagen::legends_of({{first, height}, {second, angle}}) == Strings{"x[1] [m], z [m]", "x[2] [m], θ [rad]"});
     CHECK(lagen::legends_of({{time, first}}) == Strings{""});
     const auto entry = [](const char* name) { return Symbol{name, {}, "", "m", ""}; };
-    CHECK(lagen::axis_label({entry("Q[1,2]"), entry("Q[2,2]")}, 500, true) == "Q[·,2] [m]");
+    CHECK(lagen::axis_label({entry("Q[1,2]"), entry("Q[2,2]")}) == "Q[·,2] [m]");
     CHECK(lagen::legends_of({{entry("Q[1,1]"), entry("Q[1,2]")}, {entry("Q[2,1]"), entry("Q[2,2]")}}) ==
           Strings{"Q[1,·]", "Q[2,·]"});
-    CHECK(lagen::shortened("abcdefghijklmnopqrstuvwxyz", 80) == "abcdefg...");
-    CHECK(lagen::text_width(lagen::shortened(std::string(200, 'm'), 300)) <= 300);
-}
-
-TEST_CASE("numbers at an axis are round")
-{
-    CHECK(lagen::round_ticks(0, 1) == std::vector<double>{0, 0.2, 0.4, 0.6000000000000001, 0.8, 1});
-    CHECK(lagen::round_ticks(-3, 5) == std::vector<double>{-2, 0, 2, 4});
-    CHECK(lagen::round_ticks(1, 1).empty());
-}
-
-TEST_CASE("a graph that hardly leaves its start shows its change")
-{
-    SampledCurve curve;
-    for (int k = 0; k <= 100; ++k) curve.push_back({0.1 * k, 5 + 1e-9 * std::sin(0.1 * k), 0});
-    const lagen::Drawing drawing = lagen::draw_in_plane(panel(curve, {"t", "energy"}));
-    CHECK(drawing.over_time);
-    CHECK(drawing.y_label == "change of energy");
-    CHECK(drawing.box.high.y == Approx(1e-9).epsilon(1e-2));
-    CHECK(lagen::draw_in_plane(panel(curve, {"x", "energy"})).y_label == "energy");
 }
 
 TEST_CASE("a curve that keeps its distance from the origin stands on a sphere, its back pale")
 {
     // The equator of radius 2 is half in front.
-    const lagen::Drawing drawing = lagen::draw_in_space(panel(circle(2, 0, 1000), {"a", "b", "c"}));
-    CHECK(drawing.x_label == "sphere of radius 2");
-    REQUIRE(drawing.marks.size() == 3);
-    CHECK((drawing.marks[0].text == "a" && drawing.marks[2].text == "c"));
-    CHECK(std::abs(static_cast<int>(points_in(drawing, blue)) - 501) < 3);
-    CHECK(std::abs(static_cast<int>(points_in(drawing, pale_blue)) - 501) < 3);
+    const std::string equator = script_of(circle(2, 0, 1000), {"a", "b", "c"});
+    CHECK_THAT(equator, Catch::Contains("'sphere of radius 2'") && Catch::Contains("set label 'a' at") &&
+                            Catch::Contains("set label 'c' at") && Catch::Contains("set view 65,125"));
+    const auto front = count_of(equator, " 0x0072b2\n"), back = count_of(equator, " 0xaad0e6\n");
+    CHECK((front > 40 && back > 40 && front < back + 10 && back < front + 10));
     // A circle around the axis that points down is seen from below.
-    CHECK(points_in(lagen::draw_in_space(panel(circle(0.3, -1, 1000), {"a", "b", "c"})), pale_blue) < 200);
+    const std::string below = script_of(circle(0.3, -1, 1000), {"a", "b", "c"});
+    CHECK_THAT(below, Catch::Contains("set view 115,"));
+    CHECK(count_of(below, " 0xaad0e6\n") < count_of(below, " 0x0072b2\n"));
     // One around another centre is in a box, unless a sphere is asked for.
-    PanelRequest helix = panel(circle(1, 0, 1000), {"a", "b", "c"});
-    for (std::size_t k = 0; k < helix.curves[0].size(); ++k) helix.curves[0][k][2] = 0.001 * static_cast<double>(k);
-    CHECK(lagen::draw_in_space(helix).x_label.empty());
-    helix.sphere = true;
-    CHECK(lagen::draw_in_space(helix).x_label == "sphere of radius 1.41421");
-    helix = panel(circle(2, 0, 1000), {"a", "b", "c"});
-    helix.sphere = false;
-    CHECK(lagen::draw_in_space(helix).x_label.empty());
+    SampledCurve helix = circle(1, 0, 1000);
+    for (std::size_t k = 0; k < helix.size(); ++k) helix[k][2] = 0.001 * static_cast<double>(k);
+    CHECK_THAT(script_of(helix, {"a", "b", "c"}), !Catch::Contains("sphere") && Catch::Contains("set zlabel 'c'"));
+    CHECK_THAT(script_of(helix, {"a", "b", "c"}, true), Catch::Contains("'sphere of radius 1.41421'"));
+    CHECK_THAT(script_of(circle(2, 0, 1000), {"a", "b", "c"}, false), !Catch::Contains("sphere"));
 }
 
-TEST_CASE("legends name every curve, beside the panel or below it in columns, and stay on the page")
+TEST_CASE("legends name every curve, however many there are, and stand on the page")
 {
-    // Right edges of all texts of a legend, with the height of the page behind them.
-    const auto right_edges = [](const std::vector<std::string>& names, std::size_t& entries) {
-        PanelRequest request;
-        for (std::size_t k = 0; k < names.size(); ++k) {
-            request.curves.push_back({{0, 0, 0}, {1, 0.1 * static_cast<double>(k), 0}});
-            request.symbols.push_back({Symbol{"t", {}, "", "", ""}, Symbol{names[k], {}, "", "", ""}});
+    for (const int count : {3, 40}) {
+        Panel panel;
+        panel.labels = {"t", "x"};
+        panel.over_time = true;
+        for (int k = 1; k <= count; ++k) {
+            panel.curves.push_back({{0, 0, 0}, {1, 0.1 * k, 0}});
+            panel.legends.push_back("curve " + std::to_string(k));
         }
         const std::string path = fresh_folder() + "/legend.svg";
-        lagen::draw_page({lagen::draw_in_plane(request)}, std::string(300, 'T'), path);
+        lagen::draw_panels({panel}, "title", path);
         const std::string svg = read_text(path);
-        CHECK_THAT(svg, Catch::Contains("TTT...<"));
         std::smatch size;
         REQUIRE(std::regex_search(svg, size, std::regex("viewBox=\"0 0 900 ([0-9]+)\"")));
-        static const std::regex legend(
-            "translate\\(([0-9.]+),([0-9.]+)\\)[^>]*start[^>]*>\\s*<text>(?:<[^>]*>)*(curve[^<]*)<");
-        std::vector<double> edges;
-        for (std::sregex_iterator at(svg.begin(), svg.end(), legend), end; at != end; ++at) {
-            edges.push_back(std::stod((*at)[1]) + lagen::text_width((*at)[3]));
-            CHECK(std::stod((*at)[2]) < std::stod(size[1]));
-        }
-        entries = edges.size();
-        return edges;
-    };
-    std::size_t entries = 0;
-    const std::vector<std::string> few{"curve 1", "curve 2", "curve 3"};
-    for (const double edge : right_edges(few, entries)) CHECK((edge > 800 && edge <= 900));
-    CHECK(entries == 3);
-    std::vector<std::string> many, broad; // more than one column holds; names up to the breadth of the page and beyond
-    for (int k = 1; k <= 40; ++k) {
-        many.push_back("curve " + std::to_string(k));
-        broad.push_back("curve_" + std::string(static_cast<std::size_t>(2 * k), 'm') + std::to_string(k));
+        static const std::regex legend("translate\\(([0-9.]+),([0-9.]+)\\)[^>]*>\\s*<text>(?:<[^>]*>)*curve [0-9]+<");
+        int found = 0;
+        for (std::sregex_iterator at(svg.begin(), svg.end(), legend), end; at != end; ++at, ++found)
+            CHECK((std::stod((*at)[1]) < 860 && std::stod((*at)[2]) < std::stod(size[1])));
+        CHECK(found == count);
     }
-    for (const auto& names : {many, broad}) {
-        for (const double edge : right_edges(names, entries)) CHECK(edge <= 900);
-        CHECK(entries == 40);
-    }
-}
-
-TEST_CASE("the axes of the usual view point to the left and down, to the right, and up")
-{
-    const lagen::PictureProjection project(lagen::usual_azimuth, lagen::usual_elevation);
-    CHECK((project({1, 0, 0}).x < 0 && project({1, 0, 0}).y < 0));
-    CHECK((project({0, 1, 0}).x > 0 && project({0, 0, 1}).y > 0));
-    const lagen::Vector eye = project.towards();
-    CHECK(lagen::length(eye) == Approx(1));
-    CHECK((std::fabs(project(eye).x) < 1e-15 && std::fabs(project(eye).y) < 1e-15));
-    CHECK(project.depth(eye) == Approx(1));
 }
 
 TEST_CASE("the rows of a picture go into a pipe, and a terminal is told how to have them", "[run]")

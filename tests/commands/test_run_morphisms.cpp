@@ -3,7 +3,7 @@
 /// map is a morphism and large where it is none.
 #include "program.hpp"
 
-#include "commands/morphism/covector.hpp"
+#include "commands/morphism/projection.hpp"
 #include "support/golden.hpp"
 #include "support/json.hpp"
 #include "text/diagnostic.hpp"

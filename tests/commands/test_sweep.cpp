@@ -4,7 +4,7 @@
 #include "program.hpp"
 #include "sweep_table.hpp"
 
-#include "commands/machine/philox.hpp"
+#include "machine/philox.hpp"
 #include "support/golden.hpp"
 
 #include <catch2/catch.hpp>

@@ -5,7 +5,7 @@
 #include "support/golden.hpp"
 
 #include "commands/scene/table.hpp"
-#include "commands/sweep/sweep_progress.hpp"
+#include "commands/sweep/sweep_run.hpp"
 
 #include <catch2/catch.hpp>
 

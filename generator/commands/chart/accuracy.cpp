@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/chart/accuracy.hpp"
 
-#include "commands/chart/kept_chart.hpp"
 #include "commands/chart/report.hpp"
-#include "commands/machine/write_file.hpp"
 #include "commands/scene/integrate_scene.hpp"
 #include "commands/scene/preparation.hpp"
+#include "commands/scene/run_record.hpp"
 #include "commands/scene/scene_options.hpp"
+#include "machine/compile_cache.hpp"
+#include "machine/write_file.hpp"
 #include "model/scene_form.hpp"
 
 #include <fmt/core.h>
@@ -79,6 +80,8 @@ void compile_best(const CheckedModel& checked, const Scene& scene, const std::st
     }
     if (chart.obstacle.empty()) compile_programs(programs);
 }
+
+constexpr std::string_view chart_heading = "what `lagen chart` of " LAGEN_VERSION " measured, packed\n";
 
 } // namespace
 
@@ -167,6 +170,36 @@ double table_distance(const Table& a, const Table& b)
         most = std::max(most, size > 0 ? distance / size : distance);
     }
     return most;
+}
+
+std::string chart_file(const Options& options, const Model& model)
+{
+    ContentHash hash;
+    for (const char* option : {"scene", "form", "t-end", "at", "unchecked"})
+        hash.add(options.has(option) ? option : "").add(options.get(option));
+    for (const Setting& setting : options.settings())
+        hash.add(setting.binds ? "bind" : "set").add(setting.name).add(setting.value.text);
+    for (const Setting& setting : options.named("initial"))
+        hash.add("initial").add(setting.name).add(setting.value.text);
+    Model charted = model; // the same whether parameters are bound yet or not
+    for (Parameter& parameter : charted.parameters) parameter.bound = false;
+    add_model(hash, charted);
+    return kept_file(hash.add("chart"));
+}
+
+KeptChart kept_chart(const Chart& chart)
+{
+    return {chart.points, chart.ended_by_event ? "" : chart.shortened};
+}
+
+std::optional<KeptChart> find_chart(const std::string& file)
+{
+    return kept<KeptChart>(file, chart_heading);
+}
+
+void keep_chart(const std::string& file, const KeptChart& chart)
+{
+    keep(file, chart_heading, chart);
 }
 
 } // namespace lagen

@@ -3,12 +3,32 @@
 /// kept in the cache, and a second run that confirms them.
 #pragma once
 
-#include "commands/chart/kept_chart.hpp"
+#include "commands/chart/chart.hpp"
 #include "commands/line/options.hpp"
 #include "commands/scene/run_record.hpp"
 #include "commands/scene/table.hpp"
 
 namespace lagen {
+
+// The points of a chart in the cache, for `lagen run --accuracy`.
+
+struct KeptChart {
+    std::vector<ChartPoint> points;
+    std::string obstacle; ///< why the reference ends before the scene does; empty where it does not
+
+    static void each(auto& self, auto& archive) { archive(self.points, self.obstacle); }
+};
+
+/// The file of the chart of a scene, named by what a chart rests on; empty where there is no place for a cache.
+[[nodiscard]] std::string chart_file(const Options& options, const Model& model);
+
+[[nodiscard]] KeptChart kept_chart(const Chart& chart);
+
+/// Nothing where there is none in this file.
+[[nodiscard]] std::optional<KeptChart> find_chart(const std::string& file);
+
+/// A failure to write is no failure of the run.
+void keep_chart(const std::string& file, const KeptChart& chart);
 
 struct AccurateMethod {
     const MethodEntry* method = nullptr;

@@ -2,8 +2,10 @@
 /// A work-precision chart: how far every applicable method is from a reference, and what that costs.
 #pragma once
 
+#include "commands/chart/reference.hpp"
 #include "commands/line/options.hpp"
 #include "commands/scene/methods.hpp"
+#include "machine/compile.hpp"
 #include "pipeline.hpp"
 
 #include <optional>
@@ -74,5 +76,8 @@ struct ChartRequest {
 
 /// The errors for which the best point is told.
 inline constexpr double charted_errors[] = {1e-3, 1e-6, 1e-9, 1e-12};
+
+/// Why the method does not apply, in terms of the model; empty where it does.
+[[nodiscard]] std::string obstacle_to(const MethodEntry& method, const ChartProblem& problem);
 
 } // namespace lagen

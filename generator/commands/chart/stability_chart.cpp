@@ -1,15 +1,23 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/chart/stability_chart.hpp"
 
-#include "commands/chart/contestants.hpp"
-#include "commands/chart/problem.hpp"
-#include "commands/chart/stability_discrete.hpp"
+#include "commands/chart/chart.hpp"
+#include "commands/chart/reference.hpp"
+#include "commands/line/options.hpp"
 #include "commands/scene/linear_limits.hpp"
+#include "commands/scene/methods.hpp"
 #include "commands/scene/scene_options.hpp"
+#include "commands/scene/scene_program.hpp"
 #include "commands/scene/start_state.hpp"
+#include "elaborate/variational_model.hpp"
 #include "emit/print_header.hpp"
+#include "graph/core/graph.hpp"
 #include "lagen_run/archive.hpp"
 #include "linear/linear_system.hpp"
+#include "machine/compile.hpp"
+#include "mechanics/discrete.hpp"
+#include "model/families.hpp"
+#include "model/plain_names.hpp"
 #include "model/scene_form.hpp"
 #include "scene/sample_times.hpp"
 
@@ -18,12 +26,168 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <thread>
 #include <tuple>
 
 namespace lagen {
 
 namespace {
+
+// Discrete motions in a stability chart: the one of [discrete], and those that variational methods make of
+// [lagrangian]. Each has equations of its own, and so a program (runtime/program/lagen_chart/discrete_stability.hpp).
+
+struct DiscreteContestant {
+    const MethodEntry* method = nullptr;
+    std::string scheme; ///< that made the discrete Lagrangian; empty: it is written out
+    KernelModule module;
+    ProgramText text;
+    chart::StabilityRequest request; ///< without the figures of the columns
+    std::string followed;            ///< as in StabilityChart
+};
+
+/// Sets the quantity of the request that is followed, and returns its name.
+std::string follow_in_steps(const CheckedModel& checked, const KernelModule& module,
+                            const std::optional<std::string>& wanted, chart::StabilityRequest& request)
+{
+    const bool energy = has_kernel(module, "energy") && keeps_energy(checked.system);
+    if (energy && (!wanted || *wanted == "energy" || *wanted == "hamiltonian")) {
+        request.follow = chart::Follow::energy;
+        return "energy";
+    }
+    if (wanted && wanted->empty()) return "";
+    if (has_kernel(module, "invariants")) {
+        const std::vector<std::string>& names = kernel_named(module, "invariants").outputs[0].entry_names;
+        for (std::size_t k = 0; k < names.size(); ++k)
+            if (!wanted || *wanted == "invariant " + names[k]) {
+                request.follow = chart::Follow::invariant;
+                request.invariant = k;
+                return "invariant " + names[k];
+            }
+    }
+    if (wanted)
+        throw MathematicsError(
+            fmt::format("the discrete form of model '{}' has no {} to follow", module.model, *wanted));
+    return "";
+}
+
+/// The number of the parameter that is the step; behind those of the model where it is none of them.
+std::size_t step_number(const Model& model)
+{
+    const std::vector<Symbol> symbols = free_parameters(model);
+    const auto place = std::ranges::find(symbols, model.discrete->step.name, &Symbol::name);
+    return static_cast<std::size_t>(place - symbols.begin());
+}
+
+/// A start for every step of every column.
+class CellStarts {
+  public:
+    CellStarts(CheckedModel& checked, const Scene& scene, const StabilityChart& chart)
+        : model_(checked.model), scene_(scene), chart_(chart),
+          start_([&checked](bool) -> const CheckedModel& { return checked; }, scene.form), evaluate_(model_, scene)
+    {
+    }
+
+    [[nodiscard]] std::vector<chart::ColumnStart> all()
+    {
+        std::vector<chart::ColumnStart> starts;
+        for (const ColumnPlace& place : column_places(chart_.axes))
+            for (const double step : chart_.axes[0].values) starts.push_back(start_of(step, place));
+        return starts;
+    }
+
+  private:
+    [[nodiscard]] chart::ColumnStart start_of(double step, const ColumnPlace& column)
+    {
+        Values parameters = column.parameters;
+        const std::string& step_name = model_.discrete->step.name;
+        const std::size_t place = step_number(model_);
+        const bool own = place == free_parameters(model_).size();
+        if (!own) parameters[step_name] = static_cast<long double>(step);
+        const SceneValues values = evaluate_(parameters, column.initial);
+        std::vector<double> numbers = doubles_of(finite_numbers(values.parameters, scene_));
+        if (own) numbers.push_back(step);
+        return {std::move(numbers), doubles_of(finite_start(start_, values, scene_))};
+    }
+
+    const Model& model_;
+    const Scene& scene_;
+    const StabilityChart& chart_;
+    StartState start_;
+    SceneEvaluator evaluate_;
+};
+
+ProgramText stepping_program(const Generated& generated, const char* name)
+{
+    ProgramText text{
+        generated.header,
+        fmt::format("#include \"model.hpp\"\n#include \"lagen_chart/discrete_stability.hpp\"\nint "
+                    "main(int argc, char** argv)\n{{\n    return "
+                    "lagen::chart_discrete_stability<lagen::models::{}<double>>(\"{}\", argc, argv);\n}}\n",
+                    class_name(generated.module.name), name)};
+    text.options = rounding_options();
+    return text;
+}
+
+/// The scene in its discrete form by `method`, for every step and column of `chart`, which has its axes, start and end.
+/// `checked` has [discrete] and is proved. `followed`: what the other methods follow; nothing where there are none.
+/// Throws MathematicsError where the scene goes backwards, or the discrete form has nothing of that name to follow.
+DiscreteContestant discrete_contestant(CheckedModel& checked, const MethodEntry& method, const Scene& scene,
+                                       const StabilityChart& chart, const std::optional<std::string>& followed)
+{
+    const std::string form = entry_of(FormKind::discrete).name;
+    const Scene own = in_form(checked.model, scene, form);
+    if (chart.end < chart.start)
+        throw MathematicsError(
+            fmt::format("{} makes steps forwards alone, and the scene '{}' goes backwards", method.name, scene.name));
+    GenerateRequest kernels;
+    kernels.form = form;
+    kernels.scene = &own;
+    Generated generated = generate(checked, kernels);
+    DiscreteContestant contestant;
+    contestant.method = &method;
+    contestant.scheme = checked.model.discrete->scheme;
+    contestant.request.start = chart.start;
+    contestant.request.end = chart.end;
+    contestant.request.steps = chart.axes[0].values;
+    contestant.request.step = step_number(checked.model);
+    contestant.request.starts = CellStarts(checked, own, chart).all();
+    contestant.followed = follow_in_steps(checked, generated.module, followed, contestant.request);
+    contestant.text = stepping_program(generated, method.name);
+    contestant.module = std::move(generated.module);
+    return contestant;
+}
+
+/// The same of `checked`, in continuous time, by a variational method; `checked` stays as it is.
+DiscreteContestant variational_contestant(const CheckedModel& checked, const MethodEntry& method, const Scene& scene,
+                                          const StabilityChart& chart)
+{
+    CheckedModel own = checked;
+    own.model = variational_model(std::move(own.model), method.scheme, method.name);
+    prove(own);
+    Scene steps = scene;
+    steps.form.clear();
+    const SceneValues given = evaluate_scene(checked.model, scene);
+    set_parameters(own, finite_numbers(given.parameters, scene));
+    return discrete_contestant(own, method, steps, chart, chart.followed);
+}
+
+/// Where the scene begins, and ends by its duration, else by its steps. Throws ModelError where it starts from an
+/// arrow, which belongs to its step.
+std::pair<double, double> span_of_steps(const Model& model, const Scene& scene)
+{
+    const SceneValues values = evaluate_scene(model, scene);
+    if (starts_from_arrow(values))
+        throw ModelError(
+            fmt::format("scene '{}' starts from an arrow, which belongs to its step, and a stability chart "
+                        "is over steps",
+                        scene.name),
+            scene.where, "give 'initial' the momenta of the start");
+    if (values.duration)
+        return {static_cast<double>(values.start), static_cast<double>(values.start + *values.duration)};
+    const SampleTimes times = sample_times(scene, values, 1, true);
+    return {static_cast<double>(times.start), static_cast<double>(times.end)};
+}
 
 /// The scene without what other charts and runs ask of it.
 Scene stepped_scene(const Scene& scene, const std::vector<StabilityAxis>& axes, const Model& model)
@@ -306,6 +470,44 @@ void chart_steps(CheckedModel& checked, const ChartRequest& request, const Scene
     run_contestants({contestant}, chart);
 }
 
+constexpr std::uint64_t most_cells = 1'000'000;
+constexpr const char* initial_prefix = "initial.";
+
+[[noreturn]] void refuse_over(const std::string& text, const std::string& what)
+{
+    throw UsageError(fmt::format("--over {}: {}", text, what));
+}
+
+/// The name as the model has it.
+std::string name_in_model(const Setting& setting, const std::string& text, const Model& model, const Scene& scene)
+{
+    const std::optional<std::string> starts = initial_name(setting.name);
+    const std::string name = starts.value_or(setting.name);
+    const std::vector<Symbol> symbols = starts ? initial_symbols(model, scene) : free_parameters(model);
+    const std::optional<ResolvedKey> key = resolve_key(symbols, name);
+    if (key && key->shape.rank == Rank::scalar) return (starts ? initial_prefix : "") + key->name;
+    throw ModelError(starts ? fmt::format("scene '{}' has no single initial value '{}' to chart over", scene.name, name)
+                            : fmt::format("the model has no single parameter '{}' to chart over", name),
+                     whole_text("<--over>", text).range(0, setting.name.size()),
+                     hint_for_key(symbols, name, starts ? "initial values" : "parameters"));
+}
+
+StabilityAxis axis_from(const std::string& text, const Model& model)
+{
+    const Setting setting = read_setting("over", text);
+    const std::vector<Excerpt> parts = parts_of_range(setting.value);
+    if (parts.size() != 3) refuse_over(text, "a range is FIRST:LAST:COUNT");
+    GridAxis grid{end_of_range(model, "over", parts[0]), end_of_range(model, "over", parts[1]), 0};
+    const std::optional<std::uint64_t> count = read_whole(parts[2].text);
+    if (!count || *count == 0 || *count > most_cells)
+        refuse_over(text, fmt::format("the number of points is '{}', where a whole number from 1 to {} is required",
+                                      parts[2].text, most_cells));
+    grid.count = *count;
+    StabilityAxis axis{setting.name, {}};
+    for (std::uint64_t k = 0; k < grid.count; ++k) axis.values.push_back(grid.at(k));
+    return axis;
+}
+
 } // namespace
 
 StabilityChart make_stability_chart(CheckedModel& checked, const ChartRequest& request, std::vector<StabilityAxis> axes)
@@ -324,6 +526,44 @@ StabilityChart make_stability_chart(CheckedModel& checked, const ChartRequest& r
     else
         chart_curves(checked, request, scene, chart);
     return chart;
+}
+
+std::vector<StabilityAxis> stability_axes(const std::string& over, const Model& model, const Scene& scene)
+{
+    const std::vector<std::string> texts = split_list(over);
+    if (texts.empty() || texts.size() > 2 || !texts[0].starts_with("step="))
+        throw UsageError("--stability needs --over step=FIRST:LAST:COUNT, and behind a comma at most one range more, "
+                         "of a parameter or of initial.NAME");
+    std::vector<StabilityAxis> axes;
+    for (const std::string& text : texts) axes.push_back(axis_from(text, model));
+    for (const double step : axes[0].values)
+        if (!(step > 0)) refuse_over(texts[0], fmt::format("a step of {} is not positive", step));
+    if (axes.size() == 1) return axes;
+    if (axes[1].values.size() * axes[0].values.size() > most_cells)
+        refuse_over(over, fmt::format("the chart has more than {} points", most_cells));
+    axes[1].name = name_in_model(read_setting("over", texts[1]), texts[1], model, scene);
+    const std::optional<std::string> starts = initial_name(axes[1].name);
+    axes[1].heading =
+        (starts ? initial_prefix : "") + plain_names({starts.value_or(axes[1].name)}, all_names(model))[0];
+    return axes;
+}
+
+std::optional<std::string> initial_name(const std::string& name)
+{
+    const std::string_view prefix = initial_prefix;
+    return name.starts_with(prefix) ? std::optional(name.substr(prefix.size())) : std::nullopt;
+}
+
+std::vector<ColumnPlace> column_places(const std::vector<StabilityAxis>& axes)
+{
+    if (axes.size() < 2) return {{}};
+    const std::optional<std::string> starts = initial_name(axes[1].name);
+    std::vector<ColumnPlace> places;
+    for (const double value : axes[1].values) {
+        ColumnPlace& place = places.emplace_back();
+        (starts ? place.initial : place.parameters)[starts.value_or(axes[1].name)] = static_cast<long double>(value);
+    }
+    return places;
 }
 
 } // namespace lagen

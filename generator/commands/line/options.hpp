@@ -2,9 +2,11 @@
 /// Command-line options: a thin wrapper that keeps Boost.Program_options out of every other file.
 #pragma once
 
+#include "model/model.hpp"
 #include "model/morphism.hpp"
 #include "text/diagnostic.hpp"
 
+#include <cstdint>
 #include <initializer_list>
 #include <map>
 #include <optional>
@@ -94,6 +96,15 @@ inline constexpr OptionEntry initial{"initial", "NAME=VALUE", "an initial value 
 inline constexpr OptionEntry bind{
     "bind", "NAMES",
     "parameters that become constants of the equations, with a value or the one that they have: I1=2,m"};
+inline constexpr OptionEntry method{"method", "METHOD", "see `lagen methods`; without it the scene's, else dop853"};
+inline constexpr OptionEntry step{"step", "H", "step of a fixed-step method"};
+inline constexpr OptionEntry time_scale{
+    "time-scale", "EXPR",
+    "of a splitting: steps of H times this function of the state, so chosen that runs stay reversible"};
+inline constexpr OptionEntry tolerance{
+    "tolerance", "TOL", "relative and absolute tolerance of an adaptive method; without it the scene's, else 1e-10"};
+inline constexpr OptionEntry t_end{
+    "t-end", "T", "end of the run, backwards where it lies before the start; without it the scene's duration"};
 inline constexpr OptionEntry output{"output,o", "FILE", "write there instead of to standard output"};
 inline constexpr OptionEntry unchecked{"unchecked", nullptr, "go on although the model is refuted"};
 inline constexpr OptionEntry format{"format,f", "FORMAT", "text or json", "text"};
@@ -104,5 +115,33 @@ inline constexpr OptionEntry format{"format,f", "FORMAT", "text or json", "text"
 
 /// "a,b , c" as {"a", "b", "c"}; commas inside parentheses and brackets do not separate.
 [[nodiscard]] std::vector<std::string> split_list(const std::string& text);
+
+// Values that options give: expressions of a model's parameters, whole numbers, ranges FIRST:LAST:COUNT. Grids are
+// exact: point k of n between a and b is the double nearest to a + (b - a) k/(n - 1).
+
+/// The expression given to --NAME, closed over parameters; ModelError where it depends on anything else.
+[[nodiscard]] Tree option_tree(const Model& model, const std::string& name, const Excerpt& text);
+/// The same of a number, a vector or a matrix.
+[[nodiscard]] ArrayValue option_array(const Model& model, const std::string& name, const Excerpt& text);
+
+struct GridAxis {
+    Rational first, last;
+    std::uint64_t count = 0; ///< 0: a continuum
+
+    [[nodiscard]] double at(std::uint64_t place) const;
+};
+
+/// An end of a range of --OPTION: exactly where its expression is rational, else the nearest double. Throws ModelError
+/// where it is no finite number.
+[[nodiscard]] Rational end_of_range(const Model& model, const std::string& option, const Excerpt& text);
+
+/// The parts between colons, blanks trimmed.
+[[nodiscard]] std::vector<Excerpt> parts_of_range(const Excerpt& text);
+
+/// A whole number without a sign, at most 1e18; nothing where the text is none.
+[[nodiscard]] std::optional<std::uint64_t> read_whole(const std::string& text);
+/// The value of an option as such a number; UsageError where it is none, or outside of these bounds.
+[[nodiscard]] std::uint64_t whole_option(const Options& options, const std::string& name, std::uint64_t least,
+                                         std::uint64_t most = UINT64_MAX);
 
 } // namespace lagen

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/morphism/projection.hpp"
 
-#include "commands/morphism/covector.hpp"
 #include "graph/core/evaluate.hpp"
+#include "linear/linear_system.hpp"
 #include "model/form.hpp"
 
 #include <algorithm>
@@ -20,6 +20,34 @@ std::vector<NamedNumber> named(const Graph& graph, const std::vector<NodeId>& in
 }
 
 } // namespace
+
+std::vector<long double> pushed_covector(const std::vector<long double>& matrix, const std::vector<long double>& mu)
+{
+    constexpr long double rank_tolerance = 1e-14L, image_tolerance = 1e-10L;
+    constexpr const char* hint = "start the scene from fibre coordinates, with --form lagrange";
+    using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+    using Vector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
+    const auto r = static_cast<Eigen::Index>(mu.size());
+    const Eigen::Index unknowns = r == 0 ? 0 : static_cast<Eigen::Index>(matrix.size()) / r;
+    const Eigen::Map<const Matrix> transposed(matrix.data(), r, unknowns); // rows of Phi are columns here
+    const Eigen::Map<const Vector> given(mu.data(), r);
+    Vector solution(unknowns);
+    if (unknowns > 0) {
+        Eigen::FullPivLU<Matrix> factors(transposed);
+        factors.setThreshold(rank_tolerance);
+        if (factors.rank() < unknowns)
+            throw MathematicsError("the momenta of the start are those of more than one start of the target: Phi is "
+                                   "not surjective on the fibre there",
+                                   hint);
+        solution = factors.solve(given);
+    }
+    const Vector missed = transposed * solution - given;
+    if (!(missed.lpNorm<Eigen::Infinity>() <= image_tolerance * given.lpNorm<Eigen::Infinity>()))
+        throw MathematicsError("the momenta of the start are not of the form Phi^* mu': no start of the target "
+                               "has them",
+                               hint);
+    return {solution.begin(), solution.end()};
+}
 
 Projection::Projection(SystemMorphism morphism, const std::string& form, const SceneValues& values)
     : morphism_(std::move(morphism)), graph_(morphism_.source.graph)

@@ -59,4 +59,9 @@ class Projection {
     Values parameters_;
 };
 
+/// mu' with Phi^a_b mu'_a = mu_b; `matrix`: Phi^a_b by rows, one row a component of mu'. Throws MathematicsError where
+/// no mu' has this image, to 1e-10 of the largest |mu_b|, and where more than one has.
+[[nodiscard]] std::vector<long double> pushed_covector(const std::vector<long double>& matrix,
+                                                       const std::vector<long double>& mu);
+
 } // namespace lagen

@@ -2,25 +2,52 @@
 #include "commands/plot/draw_scene.hpp"
 
 #include "commands/line/options.hpp"
-#include "commands/machine/gnuplot.hpp"
 #include "commands/plot/labels.hpp"
-#include "commands/plot/page.hpp"
 #include "commands/plot/panel.hpp"
 #include "commands/scene/integrate_scene.hpp"
+#include "commands/scene/scene_options.hpp"
+#include "machine/gnuplot.hpp"
+#include "machine/process.hpp"
+#include "machine/write_file.hpp"
 #include "model/read_curve.hpp"
 #include "model/scene_form.hpp"
+#include "text/comma_list.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <list>
 #include <map>
 
 namespace lagen {
 
 namespace {
 
-constexpr std::size_t most_times = 20001, most_steps = 10000;
+constexpr std::size_t most_picture_times = 20001, most_picture_steps = 10000;
+
+/// The run that is drawn.
+struct PlottedRun {
+    const Model& model;
+    const Scene& scene; ///< with its form and its plot
+    const RunRecord& record;
+    const ProgramInput& input; ///< of the table
+    std::size_t rows;          ///< that the table has
+};
+
+/// Another scene of the same model, changed by the command line as the last one was.
+struct RunBeside {
+    RunBeside(const Options& options, const CheckedModel& model, const Scene& scene)
+        : checked(model),
+          run(options, checked, scene, method_of(options, scene), options.has("at") && !options.has("t-end")),
+          outcome(run.integrate())
+    {
+    }
+    CheckedModel checked;
+    SceneRun run;
+    RunOutcome outcome;
+};
 
 /// The curves of a panel, and what stands at its ordinate; without it the names of the curves do.
 struct PlannedPanel {
@@ -94,11 +121,11 @@ void use_times(const PlottedRun& run, ProgramInput& input)
     SampleTimes& times = input.times;
     if (times.every > 0) {
         const std::size_t steps = (std::max<std::size_t>(run.rows, 1) - 1) * times.every;
-        times.every = std::max<std::size_t>(1, (steps + most_steps - 1) / most_steps);
+        times.every = std::max<std::size_t>(1, (steps + most_picture_steps - 1) / most_picture_steps);
     } else if (times.start != times.end) {
         times.kind = Sampling::Kind::count;
         const auto fits = static_cast<std::size_t>(most_numbers) / (input.columns.size() + 1);
-        times.count = std::max<std::size_t>(2, std::min(most_times, fits));
+        times.count = std::max<std::size_t>(2, std::min(most_picture_times, fits));
     }
 }
 
@@ -155,25 +182,50 @@ SampledCurve sampled(const PlotCurve& curve, const Columns& columns)
     return points;
 }
 
-Drawing draw_panel(const std::vector<PlottedRun>& runs, const PlannedPanel& panel, const std::vector<Columns>& columns)
+/// Graphs over t that differ from their starts by less than this part of their size become the changes from there: no
+/// axis has room for so many digits. True where they do.
+bool show_changes(std::vector<SampledCurve>& curves)
+{
+    constexpr double hardly = 1e-4;
+    const PlotBox box = box_of(curves);
+    const double height = box.high[1] - box.low[1];
+    if (!(height > 0) || height >= hardly * std::max(std::fabs(box.low[1]), std::fabs(box.high[1]))) return false;
+    for (SampledCurve& curve : curves) {
+        const double start = curve.empty() ? 0 : curve[0][1];
+        for (PlotPoint& point : curve) point[1] -= start;
+    }
+    return true;
+}
+
+/// The curves of one run after those of another, with their names or that of their run.
+Panel panel_of(const std::vector<PlottedRun>& runs, const PlannedPanel& planned, const std::vector<Columns>& columns)
 {
     const PlottedRun& first = runs.front();
     const std::optional<Plot>& plot = first.scene.plot;
-    PanelRequest request;
-    request.ordinate = panel.label;
-    request.equal = plot && plot->equal;
-    request.pen = draws_points(first) ? Pen::points : first.input.times.every > 0 ? Pen::steps : Pen::line;
-    if (plot) request.sphere = plot->sphere;
-    for (std::size_t k = 0; k < runs.size(); ++k) {
-        if (runs.size() > 1) request.runs.push_back(runs[k].scene.name);
-        for (const PlotCurve& curve : panel.curves) {
-            request.curves.push_back(sampled(curve, columns[k]));
-            std::vector<Symbol>& row = request.symbols.emplace_back();
-            for (const NamedTree& coordinate : curve.coordinates)
-                row.push_back(symbol_of(first.model, coordinate.name));
+    std::vector<std::vector<Symbol>> symbols, along(planned.curves.front().coordinates.size());
+    for (const PlotCurve& curve : planned.curves) {
+        std::vector<Symbol>& row = symbols.emplace_back();
+        for (const NamedTree& coordinate : curve.coordinates) {
+            row.push_back(symbol_of(first.model, coordinate.name));
+            along[row.size() - 1].push_back(row.back());
         }
     }
-    return is_in_space(panel.curves) ? draw_in_space(request) : draw_in_plane(request);
+    Panel panel;
+    panel.over_time = std::ranges::all_of(along[0], [](const Symbol& each) { return each.name == "t"; });
+    panel.equal = plot && plot->equal && !panel.over_time;
+    panel.pen = draws_points(first) ? Pen::points : first.input.times.every > 0 ? Pen::steps : Pen::line;
+    if (plot) panel.sphere = plot->sphere;
+    const std::vector<std::string> names = legends_of(symbols);
+    for (std::size_t k = 0; k < runs.size(); ++k)
+        for (std::size_t j = 0; j < planned.curves.size(); ++j) {
+            panel.curves.push_back(sampled(planned.curves[j], columns[k]));
+            const std::string run = runs.size() > 1 ? runs[k].scene.name : "";
+            panel.legends.push_back(comma_list(std::array{names[j], run}));
+        }
+    for (const std::vector<Symbol>& axis : along) panel.labels.push_back(axis_label(axis));
+    if (!planned.label.empty() && planned.curves.size() > 1) panel.labels[1] = panel_label(planned.label, along[1]);
+    if (panel.over_time && show_changes(panel.curves)) panel.labels[1] = "change of " + panel.labels[1];
+    return panel;
 }
 
 bool is_picture(const std::string& path)
@@ -198,21 +250,57 @@ void require_plot_format(const std::string& path)
         throw MachineError("gnuplot was not found", "--plot draws with gnuplot; install gnuplot-nox");
 }
 
-std::string draw_scene(const std::vector<PlottedRun>& runs, const std::string& path)
+std::string draw_scene(const Options& options, const SceneRun& run, const RunOutcome& outcome,
+                       const std::vector<std::string>& beside, bool& whole)
 {
-    const PlottedRun& first = runs.front();
-    const std::vector<PlannedPanel> panels = panels_of(first);
-    std::vector<Columns> columns;
-    for (const PlottedRun& run : runs) columns.push_back(columns_of_run(run, panels));
-    std::vector<Drawing> drawings;
-    std::size_t curves = 0;
-    for (const PlannedPanel& panel : panels) {
-        drawings.push_back(draw_panel(runs, panel, columns));
-        curves += panel.curves.size() * runs.size();
+    std::vector<PlottedRun> runs{{run.checked().model, run.scene(), run.record(), run.input(), outcome.table.count()}};
+    std::list<RunBeside> others;
+    for (const std::string& name : beside) {
+        Scene scene = scene_of(options, run.checked().model, options.named("initial"), name);
+        scene.plot = run.scene().plot;
+        scene.observe = run.scene().observe;
+        scene.states = run.scene().states;
+        const RunBeside& other = others.emplace_back(options, run.checked(), scene);
+        if (is_interrupted(other.outcome)) throw InterruptedError("lagen: interrupted while drawing");
+        runs.push_back({other.checked.model, other.run.scene(), other.run.record(), other.run.input(),
+                        other.outcome.table.count()});
+        whole = whole && succeeded(other.outcome.status);
+        write_standard_error(report_text(other.outcome) + run_warnings(other.outcome));
     }
-    draw_page(drawings, first.model.title.empty() ? first.model.name : first.model.title, path);
+    const std::vector<PlannedPanel> planned = panels_of(runs.front());
+    std::vector<Columns> columns;
+    for (const PlottedRun& each : runs) columns.push_back(columns_of_run(each, planned));
+    std::vector<Panel> panels;
+    std::size_t curves = 0;
+    for (const PlannedPanel& each : planned) {
+        panels.push_back(panel_of(runs, each, columns));
+        curves += panels.back().curves.size();
+    }
+    const Model& model = run.checked().model;
+    draw_panels(panels, model.title.empty() ? model.name : model.title, options.get("plot"));
     return fmt::format("{} panel{}, {} curve{}", panels.size(), panels.size() == 1 ? "" : "s", curves,
                        curves == 1 ? "" : "s");
+}
+
+std::vector<std::string> scenes_beside(const Options& options, const Model& model, const Scene& last)
+{
+    std::vector<std::string> names = options.all("scene");
+    if (names.size() < 2) return {};
+    for (const char* word : {"accuracy", "bind", "branch", "variations", "jacobi-field"})
+        if (options.has(word)) throw UsageError(fmt::format("--{} is of one run, and --scene names several", word));
+    if (!options.has("plot"))
+        throw UsageError("several scenes are drawn into one picture: give --plot FILE.svg as well");
+    for (const std::string& name : names) {
+        if (std::ranges::count(names, name) > 1) throw UsageError(fmt::format("--scene names '{}' twice", name));
+        const Scene scene = scene_of(options, model, options.named("initial"), name);
+        if (scene.form != last.form)
+            throw UsageError(fmt::format("a picture is of runs of one form, and scene '{}' is run in the form '{}', "
+                                         "scene '{}' in the form '{}'",
+                                         last.name, last.form, scene.name, scene.form),
+                             fmt::format("--form {}", last.form));
+    }
+    names.pop_back();
+    return names;
 }
 
 } // namespace lagen

@@ -18,6 +18,8 @@ namespace lagen {
 
 namespace {
 
+constexpr std::size_t longest_label = 40, longest_legend = 60; ///< columns that an axis and a legend have
+
 /// The letters of a command behind its backslash.
 std::string command_at(const std::string& text, std::size_t at)
 {
@@ -107,42 +109,13 @@ std::vector<Symbol> along(const std::vector<std::vector<Symbol>>& curves, std::s
     return symbols;
 }
 
-/// Pixels in DejaVu Sans at 13 pixels, the broadest of the usual fonts without serifs.
-double character_width(char32_t c)
+/// `text`, its end cut off for dots where it has more columns.
+std::string shortened(const std::string& text, std::size_t columns)
 {
-    const auto one_of = [c](std::string_view set) { return c < 0x80 && set.find(static_cast<char>(c)) != set.npos; };
-    if (is_accent(c)) return 0;
-    if (one_of(" !'(),-./:;I[]fijlrt|\\") || c == 0xb7 || (c >= 0x2070 && c < 0x20a0)) return 5.4;
-    if (one_of("%@MWm") || (c >= 0x1100 && (c < 0x2000 || c > 0x2e7f) && c < 0x10000)) return c < 0x80 ? 13 : 14;
-    if (one_of("#+<=>^w~") || c == 0x3c9 || (c >= 0x2190 && c < 0x2300)) return 10.9;
-    return c < 0x80 && std::isupper(static_cast<unsigned char>(c)) != 0 ? 10.3 : 8.7;
+    return columns_of(text) <= columns ? text : whole_characters(text, columns - 3) + "...";
 }
 
 } // namespace
-
-int text_width(const std::string& text)
-{
-    double width = 0;
-    for (std::size_t at = 0; at < text.size();) {
-        const CodePoint point = decode_utf8(text, at);
-        width += character_width(point.value);
-        at += std::max<std::size_t>(point.length, 1);
-    }
-    return static_cast<int>(width) + 1;
-}
-
-std::string shortened(const std::string& text, int width)
-{
-    if (text_width(text) <= width) return text;
-    std::string cut;
-    for (std::size_t at = 0; at < text.size();) {
-        const std::size_t length = std::max<std::size_t>(decode_utf8(text, at).length, 1);
-        if (text_width(cut + text.substr(at, length) + "...") > width) break;
-        cut += text.substr(at, length);
-        at += length;
-    }
-    return cut + "...";
-}
 
 std::string characters_of_latex(const std::string& latex)
 {
@@ -200,19 +173,16 @@ std::string panel_label(const std::string& text, const std::vector<Symbol>& symb
     return with_unit(text, shared_unit(symbols));
 }
 
-std::string axis_label(const std::vector<Symbol>& symbols, int width, bool texts)
+std::string axis_label(const std::vector<Symbol>& symbols)
 {
     const std::vector<Symbol> all = without_repetition(symbols);
     if (all.size() == 1) {
-        const std::string brief = short_label(all[0]);
-        const std::string full = all[0].text.empty() || !texts ? brief : all[0].text + ", " + brief;
-        for (const std::string& label : {full, brief})
-            if (text_width(label) <= width) return label;
-        return shortened(symbol_text(all[0]), width);
+        const std::string brief = short_label(all[0]), full = all[0].text + ", " + brief;
+        return all[0].text.empty() || columns_of(full) > longest_label ? shortened(brief, longest_label) : full;
     }
     const std::string together = entries_text(all);
     const std::string full = with_unit(together.empty() ? comma_list(all, symbol_text) : together, shared_unit(all));
-    return text_width(full) <= width ? full : shortened(short_label(all[0]), width - text_width(", ...")) + ", ...";
+    return columns_of(full) <= longest_label ? full : shortened(short_label(all[0]), longest_label - 5) + ", ...";
 }
 
 std::vector<std::string> legends_of(const std::vector<std::vector<Symbol>>& curves)
@@ -231,7 +201,7 @@ std::vector<std::string> legends_of(const std::vector<std::vector<Symbol>>& curv
         const std::string entries = told[k].size() > 1 && !units ? entries_text(told[k]) : "";
         for (const Symbol& symbol : told[k])
             legends[k] += (legends[k].empty() ? "" : ", ") + (units ? short_label(symbol) : symbol_text(symbol));
-        if (!entries.empty()) legends[k] = entries;
+        legends[k] = shortened(entries.empty() ? legends[k] : entries, longest_legend);
     }
     return legends;
 }

@@ -1,22 +1,91 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/scene/integrate_scene.hpp"
 
-#include "commands/machine/interrupt_flag.hpp"
-#include "commands/machine/process.hpp"
-#include "commands/machine/progress.hpp"
-#include "commands/machine/temporary_folder.hpp"
-#include "commands/machine/write_file.hpp"
 #include "lagen_run/archive.hpp"
+#include "machine/process.hpp"
+#include "machine/temporary_folder.hpp"
+#include "machine/write_file.hpp"
 #include "methods/integrate_compiled.hpp"
 #include "text/diagnostic.hpp"
 
 #include <fmt/core.h>
 
+#include <chrono>
+#include <cmath>
 #include <cstring>
+#include <unistd.h>
 
 namespace lagen {
 
 namespace {
+
+// Progress of a long run: one line on standard error, on a terminal only, after half a second.
+
+class Progress {
+  public:
+    Progress(double start, double end);
+    /// The run has come to this time.
+    void show(double time);
+    /// Wipes the line.
+    void clear();
+
+  private:
+    double start_;
+    double end_;
+    bool terminal_;
+    bool shown_ = false;
+    std::chrono::steady_clock::time_point next_;
+};
+
+constexpr std::chrono::milliseconds quiet{500};
+constexpr std::chrono::milliseconds interval{100};
+
+Progress::Progress(double start, double end)
+    : start_(start), end_(end), terminal_(::isatty(STDERR_FILENO) != 0), next_(std::chrono::steady_clock::now() + quiet)
+{
+}
+
+void Progress::show(double time)
+{
+    if (!terminal_ || !std::isfinite(time) || std::chrono::steady_clock::now() < next_) return;
+    next_ = std::chrono::steady_clock::now() + interval;
+    write_standard_error(fmt::format("\r{:3.0f} %  t = {:.6g}   ", 100 * (time - start_) / (end_ - start_), time));
+    shown_ = true;
+}
+
+void Progress::clear()
+{
+    if (shown_) write_standard_error(fmt::format("\r{:40}\r", ""));
+    shown_ = false;
+}
+
+// A flag that SIGINT, SIGTERM and SIGHUP set while it is there, in the place of what they do otherwise, also those
+// that were held back before. One at a time.
+
+class InterruptFlag {
+  public:
+    InterruptFlag();
+
+    /// Not zero where one of them came.
+    [[nodiscard]] const volatile std::sig_atomic_t* flag() const;
+
+  private:
+    InterruptsAnswered answered_;
+};
+
+/// A handler can reach nothing but a static object.
+volatile std::sig_atomic_t interrupt_raised = 0;
+extern "C" void raise_interrupt_flag(int)
+{
+    interrupt_raised = 1;
+}
+
+InterruptFlag::InterruptFlag() : answered_((interrupt_raised = 0, raise_interrupt_flag)) {}
+
+const volatile std::sig_atomic_t* InterruptFlag::flag() const
+{
+    return &interrupt_raised;
+}
 
 /// Native doubles that come in pieces of any length.
 class DoublesOf {

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "commands/line/options.hpp"
-#include "commands/machine/compile.hpp"
 #include "commands/scene/run_record.hpp"
+#include "machine/compile.hpp"
 
 #include <functional>
 #include <optional>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/scene/run_record.hpp"
 
-#include "commands/machine/compile.hpp"
-#include "commands/machine/compile_cache.hpp"
-#include "commands/machine/places.hpp"
 #include "graph/core/graph.hpp"
+#include "machine/compile.hpp"
+#include "machine/compile_cache.hpp"
+#include "machine/places.hpp"
 #include "mechanics/discrete.hpp"
 #include "model/families.hpp"
 #include "model/form.hpp"

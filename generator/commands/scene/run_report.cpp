@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/scene/run_report.hpp"
 
-#include "commands/scene/branch_report.hpp"
 #include "commands/scene/methods.hpp"
 #include "lagen_run/text.hpp"
 #include "model/form.hpp"
+#include "text/comma_list.hpp"
 
 #include <fmt/format.h>
 
@@ -27,12 +27,35 @@ std::string numbers_json(std::span<const double> numbers)
     return "[" + text + "]";
 }
 
+std::string brief(double number, int digits)
+{
+    return fmt::format("{:.{}g}", number, digits);
+}
+
+/// Whether the arrow that was asked for is none of those that are found.
+bool is_branch_missing(const RunOutcome& outcome)
+{
+    return outcome.branch > 0 && outcome.branches && outcome.branch > outcome.branches->size();
+}
+
+/// How many arrows have the momenta of the start of a run that failed, where that is known, and how to take them.
+std::string branches_text(const RunOutcome& outcome)
+{
+    if (succeeded(outcome.status) || !outcome.branches) return "";
+    const std::vector<double>& found = *outcome.branches;
+    return found.empty()
+               ? "  no arrow with the momenta of the start is found\n"
+               : fmt::format("  arrows with the momenta of the start (`--branch 1` to `--branch {}`) are at the "
+                             "distances {}\n",
+                             found.size(), comma_list(found, [](double each) { return brief(each, 6); }));
+}
+
 /// What ended a run whose controls could not be followed, a discrete one, one on a group, or one of jumps.
 std::string reason_text(const RunOutcome& outcome)
 {
     const std::string& status = outcome.status;
     const MethodEntry* method = find_method(outcome.method);
-    if (is_branch_missing(outcome)) return missing_branch_text(outcome);
+    if (is_branch_missing(outcome)) return fmt::format("branch {} is not there", outcome.branch);
     if (status == "no_solution")
         return "no arrow on this branch has these momenta: they lie behind a fold of F^-L; shorter steps reach further";
     if (status == "branch_lost" && outcome.form != "discrete")
@@ -57,11 +80,6 @@ std::string reason_text(const RunOutcome& outcome)
             outcome.events.empty() ? "" : outcome.events.back().name);
     if (status == "singular_control") return "H does not depend on a control: b = c = 0 in a + b cos u + c sin u";
     return {};
-}
-
-std::string brief(double number, int digits)
-{
-    return fmt::format("{:.{}g}", number, digits);
 }
 
 bool changes_by_itself(const RunOutcome& outcome, const Drift& drift)
@@ -256,11 +274,8 @@ Record record_of(const RunOutcome& outcome)
                      {"status", outcome.status},
                      {"t", outcome.t},
                      {"state", lanes_record(outcome, outcome.state)}};
-    if (!succeeded(outcome.status)) {
-        record["failed_at"] = outcome.failed_at;
-        if (!outcome.largest_step.empty()) record["largest_step"] = std::stod(outcome.largest_step);
-    }
-    add_branches(record, outcome);
+    if (!succeeded(outcome.status)) record["failed_at"] = outcome.failed_at;
+    if (outcome.branches) record["branches"] = *outcome.branches;
     record.update({{"steps", outcome.steps}, {"rejected", outcome.rejected}, {"rhs_calls", outcome.rhs_calls}});
     if (outcome.newton > 0)
         record.update({{"newton_iterations", outcome.newton}, {"decompositions", outcome.decompositions}});
@@ -345,8 +360,6 @@ std::string report_text(const RunOutcome& outcome)
         text += fmt::format("  {} is no finite number there: {} needs the Jacobian; explicit methods such as dop853 do "
                             "not\n",
                             outcome.not_finite, outcome.method);
-    if (!outcome.largest_step.empty())
-        text += fmt::format("  the largest step near it that goes on there: {}\n", outcome.largest_step);
     if (failed && outcome.steps == 0) return text + start_hint(outcome);
     return text + accuracy_line(outcome.accuracy, outcome.second_run) + action_text(outcome) + figures_text(outcome);
 }

@@ -2,7 +2,7 @@
 /// What a run gave, and how it is told.
 #pragma once
 
-#include "commands/scene/state_accuracy.hpp"
+#include "commands/scene/table.hpp"
 #include "lagen_run/report.hpp"
 
 #include <cstdint>
@@ -27,7 +27,6 @@ struct RunOutcome : detail::RunReport {
     std::string model, scene, form, method;
     std::vector<std::string> lanes; ///< names of the lanes of states, base first
     std::string not_finite{};       ///< what of the equations is no finite number at the last good state, or ""
-    std::string largest_step;       ///< near that of a discrete motion that failed, which would have gone on; or ""
     std::uint64_t branch = 0;       ///< the number of the first arrow that was asked for, 0 where none was
     bool searches = false;          ///< controls are searched for, and followed
     std::optional<ActionReport> action{};

@@ -2,9 +2,9 @@
 /// The command line wins over the scene.
 #include "commands/scene/scene_options.hpp"
 
-#include "commands/line/values.hpp"
-#include "commands/machine/write_file.hpp"
+#include "commands/line/options.hpp"
 #include "expression/parse.hpp"
+#include "machine/write_file.hpp"
 #include "model/families.hpp"
 #include "model/read_curve.hpp"
 #include "model/scene_form.hpp"

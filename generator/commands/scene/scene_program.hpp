@@ -2,11 +2,11 @@
 /// The program of a scene: its text, and the job that it is given.
 #pragma once
 
-#include "commands/machine/process.hpp"
 #include "commands/scene/methods.hpp"
 #include "commands/scene/start_state.hpp"
 #include "graph/kernel.hpp"
 #include "lagen_run/job.hpp"
+#include "machine/process.hpp"
 #include "scene/sample_times.hpp"
 
 namespace lagen {

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/scene/scene_run.hpp"
 
-#include "commands/machine/write_file.hpp"
-#include "commands/scene/branch_report.hpp"
 #include "commands/scene/integrate_scene.hpp"
-#include "commands/scene/largest_step.hpp"
 #include "commands/scene/run_report.hpp"
 #include "commands/scene/second_run.hpp"
 #include "kernels/form_kernels.hpp"
 #include "kernels/non_finite.hpp"
+#include "machine/write_file.hpp"
 #include "model/model.hpp"
 #include "model/scene_form.hpp"
 #include "scene/read_input_table.hpp"
@@ -119,10 +117,6 @@ RunOutcome SceneRun::integrate()
         std::erase_if(outcome.invariants, is_energy);
     call_walls(outcome);
     outcome.not_finite = not_finite(outcome);
-    if (!options_.has("bind") && !is_branch_missing(outcome))
-        (void)is_uninterrupted([&] {
-            outcome.largest_step = largest_step(checked_.model, scene_, record().program, input_, *start_, outcome);
-        });
     if (const SecondRun second = second_run_of(options_); second != SecondRun::none)
         judge_state({checked_.model, scene_, method_, record().program, input_, *start_}, second, outcome);
     return outcome;

@@ -16,9 +16,8 @@ class SceneRun {
     SceneRun(const SceneRun&) = delete;
     SceneRun& operator=(const SceneRun&) = delete;
 
-    /// Runs the program, and a second time for what its state is worth (second_run.hpp). Of a discrete motion that
-    /// failed the largest step that goes on is sought, unless parameters are bound. An interrupt leaves the rows so
-    /// far, with the status "interrupted".
+    /// Runs the program, and a second time for what its state is worth (second_run.hpp). An interrupt leaves the rows
+    /// so far, with the status "interrupted".
     [[nodiscard]] RunOutcome integrate();
 
     [[nodiscard]] const CheckedModel& checked() const { return checked_; }

@@ -2,9 +2,12 @@
 #include "commands/scene/second_run.hpp"
 
 #include "commands/scene/integrate_scene.hpp"
+#include "machine/write_file.hpp"
 
 #include <fmt/core.h>
 
+#include <cmath>
+#include <filesystem>
 #include <limits>
 
 namespace lagen {
@@ -76,6 +79,15 @@ RunOutcome finer_run(const RunSetting& run, const ProgramInput& input, const Run
     return second;
 }
 
+/// Devices, pipes and standard output stay what they are.
+std::string partial_place(const std::string& output)
+{
+    std::error_code ignored;
+    const auto status = std::filesystem::status(output, ignored);
+    const bool is_stream = output == "-" || (exists(status) && !is_regular_file(status));
+    return output + (is_stream ? "" : ".partial");
+}
+
 } // namespace
 
 SecondRun second_run_of(const Options& options)
@@ -125,6 +137,26 @@ void judge_state(const RunSetting& run, SecondRun wanted, RunOutcome& outcome)
         outcome.second_run = made + " has no row to compare";
     else if (!succeeded(second.status) && second.status != outcome.status)
         outcome.second_run += fmt::format(", which ends at t = {:.6g}: {}", second.t, second.status);
+}
+
+ExitCode leave_rows(const Options& options, const Table& rows, const std::vector<std::string>& known,
+                    const std::string& report, double t)
+{
+    const std::string output = options.get("output");
+    const bool as_json = options.as_json();
+    std::string place = "on standard output";
+    if (!output.empty()) {
+        const std::string file = partial_place(output);
+        write_file(file, output.ends_with(".json") ? report : to_csv(rows, known));
+        place = fmt::format("in '{}'", file);
+    }
+    if (as_json || output.empty()) write_standard_output(as_json ? report : to_csv(rows, known));
+    const std::size_t count = rows.count();
+    const std::string when = std::isfinite(t) ? fmt::format(" at t = {:.9g}", t) : "";
+    write_standard_error(fmt::format("lagen: interrupted{}; {} so far {} {}\n", when,
+                                     count == 1 ? "the row" : fmt::format("the {} rows", count),
+                                     count == 1 ? "is" : "are", place));
+    return ExitCode::interrupted;
 }
 
 } // namespace lagen

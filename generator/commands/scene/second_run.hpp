@@ -5,6 +5,7 @@
 #include "commands/line/options.hpp"
 #include "commands/scene/run_report.hpp"
 #include "commands/scene/scene_program.hpp"
+#include "commands/scene/table.hpp"
 
 namespace lagen {
 
@@ -33,5 +34,13 @@ struct RunSetting {
 
 /// Makes the second run, and gives `outcome` what it tells. An interrupt ends the second run alone.
 void judge_state(const RunSetting& run, SecondRun wanted, RunOutcome& outcome);
+
+// An interrupted run leaves the rows that it has written so far.
+
+/// Writes the rows where the run would have written them, but for a file, which is FILE.partial: what was there before
+/// stays. `known` as for to_csv, `report` is the object of JSON, `t` the
+/// last time of the run, NaN where it is not known.
+ExitCode leave_rows(const Options& options, const Table& rows, const std::vector<std::string>& known,
+                    const std::string& report, double t);
 
 } // namespace lagen

@@ -4,9 +4,34 @@
 #include "lagen_run/text.hpp"
 #include "model/plain_names.hpp"
 
+#include <fmt/core.h>
+
+#include <algorithm>
 #include <limits>
 
 namespace lagen {
+
+namespace {
+
+constexpr double lost = 1e-2;        ///< of the size of the states: no digit is left
+constexpr double rounding = 0x1p-53; ///< of it: no double is nearer
+
+/// Steps of half the length come to the same time but for rounding.
+bool is_same_time(double a, double b)
+{
+    return std::fabs(a - b) <= 1e-13 * std::max(std::fabs(a), std::fabs(b));
+}
+
+/// "3e-9": a digit says how large an error is.
+std::string one_digit(double value)
+{
+    std::string text = fmt::format("{:.1g}", value);
+    const std::size_t exponent = text.find('e');
+    if (exponent != std::string::npos && text[exponent + 2] == '0') text.erase(exponent + 2, 1);
+    return text;
+}
+
+} // namespace
 
 double Table::last_time() const
 {
@@ -36,6 +61,47 @@ std::string to_csv(const Table& table, const std::vector<std::string>& known)
         text += "\r\n";
     }
     return text;
+}
+
+std::optional<StateAccuracy> accuracy_of(const Table& run, const Table& second, bool by_number)
+{
+    const std::size_t columns = run.columns.size();
+    if (columns < 2 || second.columns.size() != columns) return std::nullopt;
+    std::vector<double> distances;
+    double size = 0;
+    for (std::size_t k = 0; k < std::min(run.count(), second.count()); ++k) {
+        if (!by_number && !is_same_time(run.row(k)[0], second.row(k)[0])) break;
+        distances.push_back(row_distance(run.row(k), second.row(k)));
+        size = std::max(size, row_size(second.row(k)));
+    }
+    if (distances.empty()) return std::nullopt;
+    const double most = *std::ranges::max_element(distances);
+    // One of more rows alone, and the same in both, is the start.
+    if (!by_number && distances.size() == 1 && most == 0 && run.count() + second.count() > 2) return std::nullopt;
+    StateAccuracy accuracy{most > 0 ? most / size : 0};
+    const auto first = std::ranges::find_if(distances, [&](double each) { return each > lost * size; });
+    if (first != distances.end())
+        accuracy.holds_until = run.row(static_cast<std::size_t>(first - distances.begin()))[0];
+    return accuracy;
+}
+
+std::string text_of(const StateAccuracy& accuracy)
+{
+    const double known = accuracy.estimate < rounding ? 0 : accuracy.estimate;
+    if (!accuracy.holds_until) return "error of the state: about " + one_digit(known);
+    return fmt::format("digits hold until t = {:.6g}", *accuracy.holds_until);
+}
+
+std::string accuracy_line(const std::optional<StateAccuracy>& accuracy, const std::string& second_run)
+{
+    if (second_run.empty()) return "";
+    return accuracy ? fmt::format("  {} ({})\n", text_of(*accuracy), second_run)
+                    : fmt::format("  error of the state: {}\n", second_run);
+}
+
+Record record_of(const StateAccuracy& accuracy)
+{
+    return {{"estimate", accuracy.estimate}, {"holds_until", or_null(accuracy.holds_until)}};
 }
 
 } // namespace lagen

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "commands/line/options.hpp"
-#include "commands/line/values.hpp"
 
 #include <cstdint>
 #include <functional>

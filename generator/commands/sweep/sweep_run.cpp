@@ -3,10 +3,10 @@
 /// has the same bits.
 #include "commands/sweep/sweep_run.hpp"
 
-#include "commands/machine/write_file.hpp"
 #include "commands/scene/run_report.hpp"
 #include "commands/sweep/sweep_rows.hpp"
 #include "lagen_run/archive.hpp"
+#include "machine/write_file.hpp"
 #include "model/families.hpp"
 #include "model/plain_names.hpp"
 #include "text/diagnostic.hpp"
@@ -14,9 +14,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <optional>
+#include <unistd.h>
 #include <utility>
 
 namespace lagen {
@@ -40,6 +42,18 @@ void append_doubles(std::string& bytes, const std::vector<long double>& values)
         std::memcpy(raw, &number, sizeof number);
         bytes.append(raw, sizeof raw);
     }
+}
+
+using Milliseconds = std::chrono::milliseconds;
+
+Milliseconds first_pause(bool terminal)
+{
+    return Milliseconds(terminal ? 500 : 60'000);
+}
+
+Milliseconds next_pause(bool terminal)
+{
+    return Milliseconds(terminal ? 200 : 60'000);
 }
 
 } // namespace
@@ -204,6 +218,45 @@ void SweepRun::run()
         throw InterruptedError(fmt::format("lagen: interrupted, {} of {} rows are done; --resume goes on with them",
                                            file_.rows(), wanted));
     refuse_end(result, fmt::format("hint: {} of {} rows are done; --resume goes on with them", file_.rows(), wanted));
+}
+
+std::string duration_text(double seconds)
+{
+    constexpr double minute = 60, hour = 60 * minute, day = 24 * hour;
+    const double whole = std::ceil(seconds);
+    const auto two = [&](double unit, const char* name, double part, const char* part_name) {
+        return fmt::format("{:.0f} {} {:.0f} {}", std::floor(whole / unit), name,
+                           std::floor(std::fmod(whole, unit) / part), part_name);
+    };
+    if (!(whole >= minute)) return fmt::format("{:.0f} s", whole);
+    if (whole < hour) return two(minute, "min", 1, "s");
+    if (whole < day) return two(hour, "h", minute, "min");
+    return two(day, "d", hour, "h");
+}
+
+SweepProgress::SweepProgress(std::uint64_t done, std::uint64_t rows)
+    : first_(done), rows_(rows), terminal_(::isatty(STDERR_FILENO) != 0), next_(start_ + first_pause(terminal_))
+{
+}
+
+void SweepProgress::show(std::uint64_t done, std::uint64_t failed)
+{
+    const Clock::time_point now = Clock::now();
+    if (now < next_ || done == first_) return;
+    next_ = now + next_pause(terminal_);
+    const std::chrono::duration<double> passed = now - start_;
+    const double left = passed.count() * static_cast<double>(rows_ - done) / static_cast<double>(done - first_);
+    const std::string text =
+        fmt::format("{:3.0f} %  {} of {} rows{}, {} left", 100 * static_cast<double>(done) / static_cast<double>(rows_),
+                    done, rows_, failed == 0 ? "" : fmt::format(", {} failed", failed), duration_text(left));
+    write_standard_error(terminal_ ? fmt::format("\r{:<76}", text) : text + '\n');
+    shown_ = terminal_;
+}
+
+void SweepProgress::clear()
+{
+    if (shown_) write_standard_error(fmt::format("\r{:76}\r", ""));
+    shown_ = false;
 }
 
 } // namespace lagen

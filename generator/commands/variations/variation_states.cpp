@@ -2,11 +2,10 @@
 #include "commands/variations/variation_states.hpp"
 
 #include "commands/line/options.hpp"
-#include "commands/line/values.hpp"
-#include "commands/machine/philox.hpp"
 #include "commands/scene/scene_options.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/lower.hpp"
+#include "machine/philox.hpp"
 #include "mechanics/variations.hpp"
 #include "model/scene_form.hpp"
 

@@ -56,31 +56,17 @@ class Branches<M> {
         return Status::ok;
     }
 
-    /// Tells `branches` and `others`.
+    /// Tells `branches`.
     void report(const Run<M>& run, RunReport& report)
     {
         const bool lost = run.status() == Status::no_solution || run.status() == Status::branch_lost ||
                           run.status() == Status::newton_diverged;
         if (lost && !found_ && !from_arrow_) found_ = arrows_of_momenta(model_, t_, start_);
         if (found_) report.branches = distances(*found_);
-        if (lost && run.failed_at != run.t) report.others = distances(others_behind(run));
     }
 
   private:
     using Arrows = std::vector<FoundArrow<M>>;
-
-    /// The arrows with the momenta behind the last step, as the guess has its base point.
-    [[nodiscard]] Arrows others_behind(const Run<M>& run) const
-    {
-        using Lanes = ArrowLanes<M>;
-        Eigen::Matrix<double, Lanes::n, 1> x;
-        Eigen::Matrix<double, Lanes::rank, 1> mu;
-        model_.forward(run.t, run.state, x, mu);
-        State s = run.state;
-        for (int i = 0; i < Lanes::n; ++i) s[i] = x[i];
-        for (int a = 0; a < Lanes::rank; ++a) s[Lanes::momenta + a] = mu[a];
-        return ArrowSearch<M>(model_, run.t + model_.step(), s).found(true);
-    }
 
     [[nodiscard]] static std::vector<double> distances(const Arrows& arrows)
     {

@@ -61,10 +61,8 @@ struct RunReport {
     double manifold_t = not_known;
     std::vector<SmallLane> below;
     /// Distances of the arrows that are found with the momenta of a discrete start: with a branch asked for, and where
-    /// no step leads on from momenta. `others`: of those with the momenta of the step that failed, from the arrow
-    /// before.
+    /// no step leads on from momenta.
     std::optional<std::vector<double>> branches;
-    std::vector<double> others;
     std::vector<double> state; ///< the last good one
 
     static void each(auto& self, auto& archive)
@@ -72,7 +70,7 @@ struct RunReport {
         archive(self.status, self.t, self.failed_at, self.steps, self.rejected, self.rhs_calls, self.newton,
                 self.decompositions, self.seconds, self.events, self.starts_on, self.invariants, self.casimirs,
                 self.constraints, self.balance, self.work, self.manifold, self.manifold_t, self.below, self.branches,
-                self.others, self.state);
+                self.state);
     }
 };
 

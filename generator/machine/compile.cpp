@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "commands/machine/compile.hpp"
+#include "machine/compile.hpp"
 
-#include "commands/machine/compile_cache.hpp"
-#include "commands/machine/places.hpp"
-#include "commands/machine/process.hpp"
-#include "commands/machine/temporary_folder.hpp"
-#include "commands/machine/write_file.hpp"
+#include "machine/compile_cache.hpp"
+#include "machine/places.hpp"
+#include "machine/process.hpp"
+#include "machine/temporary_folder.hpp"
+#include "machine/write_file.hpp"
 #include "text/comma_list.hpp"
 #include "text/diagnostic.hpp"
 
@@ -26,86 +26,72 @@ namespace lagen {
 
 namespace {
 
-// The headers that every compiled model begins with, read by the compiler once and kept in the cache: KEY.hpp, which
+namespace fs = std::filesystem;
+
+/// The headers that every compiled model begins with, read by the compiler once and kept in the cache: KEY.hpp, which
 // includes them and says how long KEY.hpp.gch is. One that does not fit is left alone and made anew.
 
 class PrecompiledHeader {
   public:
-    /// For models that are compiled by `command`, in the folder of the cache; `key` tells that command, the runtime and
-    /// the compiler apart from others.
-    PrecompiledHeader(const std::string& cache, const std::string& key);
+    /// For models that are compiled by one command, in the folder of the cache; `key` tells that command, the runtime
+    /// and the compiler apart from others.
+    PrecompiledHeader(const std::string& cache, const std::string& key) : header_(fmt::format("{}/{}.hpp", cache, key))
+    {
+    }
 
     /// True where the precompiled header is there and whole; it then counts as used just now.
-    [[nodiscard]] bool is_ready() const;
+    [[nodiscard]] bool is_ready() const
+    try {
+        std::error_code error;
+        const std::uintmax_t length = fs::file_size(header_ + ".gch", error);
+        if (error || !fs::is_regular_file(header_, error) || content_of_file(header_) != text_beside(length))
+            return false;
+        for (const std::string& file : {header_, header_ + ".gch"})
+            fs::last_write_time(file, fs::file_time_type::clock::now(), error);
+        return true;
+    } catch (const MachineError&) {
+        return false; // it cannot be read
+    }
+
     /// The arguments of the compiler that use it.
-    [[nodiscard]] std::vector<std::string> arguments() const;
+    [[nodiscard]] std::vector<std::string> arguments() const { return {"-include", header_}; }
 
     /// The arguments that make it, in the folder `scratch`, which is there.
-    [[nodiscard]] std::vector<std::string> making(const std::string& scratch) const;
+    [[nodiscard]] static std::vector<std::string> making(const std::string& scratch)
+    {
+        // clang asks for the file that was read to be where it was: an empty one that every system has.
+        return {"-include", precompiled, "-x", "c++-header", "/dev/null", "-o", scratch + "/precompiled.gch"};
+    }
+
     /// Keeps what was made there; a failure is none of the command's.
-    void keep(const std::string& scratch) const;
+    void keep(const std::string& scratch) const
+    try {
+        std::error_code error;
+        const std::uintmax_t length = fs::file_size(scratch + "/precompiled.gch", error);
+        if (!error) fs::rename(scratch + "/precompiled.gch", header_ + ".gch", error);
+        if (!error) write_file(header_, text_beside(length));
+    } catch (const MachineError&) {
+        // The next command makes it again.
+    }
+
     /// It is not ready any more: the compiler did not take it.
-    void discard() const;
+    void discard() const
+    {
+        std::error_code error;
+        fs::remove(header_, error);
+    }
 
   private:
+    static constexpr const char* precompiled = "lagen/export_model.hpp";
+
+    /// KEY.hpp beside a precompiled header of this length.
+    static std::string text_beside(std::uintmax_t length)
+    {
+        return fmt::format("// precompiled in {} bytes\n#include \"{}\"\n", length, precompiled);
+    }
+
     std::string header_; ///< the path of KEY.hpp
 };
-
-namespace fs = std::filesystem;
-
-constexpr const char* precompiled = "lagen/export_model.hpp";
-
-/// KEY.hpp beside a precompiled header of this length.
-std::string text_beside(std::uintmax_t length)
-{
-    return fmt::format("// precompiled in {} bytes\n#include \"{}\"\n", length, precompiled);
-}
-
-PrecompiledHeader::PrecompiledHeader(const std::string& cache, const std::string& key)
-    : header_(fmt::format("{}/{}.hpp", cache, key))
-{
-}
-
-bool PrecompiledHeader::is_ready() const
-try {
-    std::error_code error;
-    const std::uintmax_t length = fs::file_size(header_ + ".gch", error);
-    if (error || !fs::is_regular_file(header_, error) || content_of_file(header_) != text_beside(length)) return false;
-    for (const std::string& file : {header_, header_ + ".gch"})
-        fs::last_write_time(file, fs::file_time_type::clock::now(), error);
-    return true;
-} catch (const MachineError&) {
-    return false; // it cannot be read
-}
-
-std::vector<std::string> PrecompiledHeader::arguments() const
-{
-    return {"-include", header_};
-}
-
-std::vector<std::string> PrecompiledHeader::making(const std::string& scratch) const
-{
-    // clang asks for the file that was read to be where it was: an empty one that every system has.
-    return {"-include", precompiled, "-x", "c++-header", "/dev/null", "-o", scratch + "/precompiled.gch"};
-}
-
-void PrecompiledHeader::keep(const std::string& scratch) const
-try {
-    std::error_code error;
-    const std::uintmax_t length = fs::file_size(scratch + "/precompiled.gch", error);
-    if (!error) fs::rename(scratch + "/precompiled.gch", header_ + ".gch", error);
-    if (!error) write_file(header_, text_beside(length));
-} catch (const MachineError&) {
-    // The next command makes it again.
-}
-
-void PrecompiledHeader::discard() const
-{
-    std::error_code error;
-    fs::remove(header_, error);
-}
-
-namespace fs = std::filesystem;
 
 std::vector<std::string> words(const char* text)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Making and removing a temporary folder with interrupts held back.
-#include "commands/machine/temporary_folder.hpp"
+#include "machine/temporary_folder.hpp"
 
 #include "text/diagnostic.hpp"
 

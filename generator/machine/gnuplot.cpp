@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "commands/machine/gnuplot.hpp"
+#include "machine/gnuplot.hpp"
 
-#include "commands/machine/process.hpp"
-#include "commands/machine/temporary_folder.hpp"
-#include "commands/machine/write_file.hpp"
+#include "machine/process.hpp"
+#include "machine/temporary_folder.hpp"
+#include "machine/write_file.hpp"
 #include "text/diagnostic.hpp"
 
 #include <fmt/core.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "commands/machine/process.hpp"
+#include "machine/process.hpp"
 
-#include "commands/machine/temporary_folder.hpp"
+#include "machine/temporary_folder.hpp"
 #include "text/diagnostic.hpp"
 
 #include <fmt/core.h>

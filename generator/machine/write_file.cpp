@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "commands/machine/write_file.hpp"
+#include "machine/write_file.hpp"
 
-#include "commands/machine/activity_watch.hpp"
+#include "machine/activity_watch.hpp"
 #include "text/diagnostic.hpp"
 
 #include <fmt/core.h>

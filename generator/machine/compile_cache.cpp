@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Least recently used programs go first; use is remembered in the time of modification.
-#include "commands/machine/compile_cache.hpp"
+#include "machine/compile_cache.hpp"
 
-#include "commands/machine/write_file.hpp"
+#include "machine/write_file.hpp"
 #include "text/content_hash.hpp"
 #include "text/diagnostic.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// A thread that wakes now and then: a single decision may take minutes, in which nobody else could write.
-#include "commands/machine/activity_watch.hpp"
+#include "machine/activity_watch.hpp"
 
 #include "text/activity.hpp"
 #include "text/alphabet.hpp"

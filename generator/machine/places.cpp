@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "commands/machine/places.hpp"
+#include "machine/places.hpp"
 
-#include "commands/machine/temporary_folder.hpp"
-#include "commands/machine/write_file.hpp"
+#include "machine/temporary_folder.hpp"
+#include "machine/write_file.hpp"
 #include "text/diagnostic.hpp"
 
 #include <fmt/core.h>
