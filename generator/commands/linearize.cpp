@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// `lagen linearize`: an equilibrium near the start of a scene, the equations linearised there, and a gain.
+#include "analysis/equilibrium.hpp"
 #include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
 #include "commands/linearize/plant.hpp"
@@ -11,7 +12,6 @@
 #include "scene/values.hpp"
 #include "text/comma_list.hpp"
 #include "text/record.hpp"
-#include "analysis/equilibrium.hpp"
 
 #include <fmt/format.h>
 
