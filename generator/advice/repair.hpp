@@ -9,9 +9,10 @@
 
 namespace lagen {
 
-/// A hint for each residual of structure_equations of `algebroid`, "" where there is none (and where it is not refuted).
-/// `editable`: what the model file gives itself, so that a hint can ask to change it; `names` is the algebroid as it is
-/// written. The effort is bounded by a count of operations, so that the same model has the same hints everywhere.
+/// A hint for each residual of structure_equations of `algebroid`, "" where there is none (and where it is not
+/// refuted). `editable`: what the model file gives itself, so that a hint can ask to change it; `names` is the
+/// algebroid as it is written. The effort is bounded by a count of operations, so that the same model has the same
+/// hints everywhere.
 [[nodiscard]] std::vector<std::string> repair_hints(Judge& judge, BaseGradient& partial, const Algebroid& algebroid,
                                                     const WrittenAlgebroid& names, const BaseFunctions& functions,
                                                     Editable editable, const ResidualList& list);

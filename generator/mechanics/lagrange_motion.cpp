@@ -97,8 +97,7 @@ std::optional<NodeId> LagrangeMotion::along_accelerations(const std::vector<Node
         rate.divisors.push_back({ydot.divisor, "det(d2L/dy2)"});
         std::vector<NodeId> numerator;
         for (std::size_t k = 0; k < block.size(); ++k)
-            if (!graph_.is_zero(f_y[block[k]]))
-                numerator.push_back(graph_.multiply(f_y[block[k]], ydot.numerator(k)));
+            if (!graph_.is_zero(f_y[block[k]])) numerator.push_back(graph_.multiply(f_y[block[k]], ydot.numerator(k)));
         terms.push_back(graph_.divide(graph_.sum(numerator), ydot.divisor));
     }
     return graph_.sum(terms);

@@ -24,8 +24,8 @@ class FunctionMatrix {
     /// Its determinant; 1 where it has no rows.
     [[nodiscard]] NodeId value(const Minor& minor) const;
 
-    /// A minor of the size of the rank; its rows are the first independent ones, ascending. Nothing where a minor on the
-    /// way is not decided, or is larger than `determinant_limit`. `everywhere`: for each row a column whose minor
+    /// A minor of the size of the rank; its rows are the first independent ones, ascending. Nothing where a minor on
+    /// the way is not decided, or is larger than `determinant_limit`. `everywhere`: for each row a column whose minor
     /// vanishes nowhere is taken, where there is one. Of a symmetric matrix the same rows and columns have a minor that
     /// is not zero either.
     [[nodiscard]] std::optional<Minor> largest_minor(const ZeroDecider& decider, bool everywhere = false) const;

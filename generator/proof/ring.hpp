@@ -136,7 +136,7 @@ class Ring {
     std::map<std::string, std::size_t> factor_keys_;
     std::map<std::pair<GeneratorId, unsigned>, Polynomial> relation_powers_;
     std::vector<SignFact> facts_;
-    std::size_t sign_steps_ = 0;                                        ///< left of one question about signs
+    std::size_t sign_steps_ = 0; ///< left of one question about signs
 };
 
 [[nodiscard]] std::string key_of(const Fraction& a);
