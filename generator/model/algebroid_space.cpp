@@ -182,7 +182,7 @@ DraftSpace space_of(const ModelReader& reader, const AlgebroidDraft& draft, cons
 
 namespace {
 
-/// Of a leaf that has its base from [base]: what prolongations add may be listed there or not.
+/// The leaf has its base from [base], where the coordinates that prolongations add may be listed or not.
 std::size_t declare_added(ModelReader& reader, const AlgebroidDraft& draft)
 {
     const std::vector<Symbol> given = reader.model.base.coordinates;

@@ -14,7 +14,7 @@ namespace lagen {
 
 namespace {
 
-/// What is evaluated along every motion of the scene; without one what a header has.
+/// The trees that are evaluated along every motion of the scene; without a scene those of a header.
 std::vector<Tree> evaluated_trees(const Model& model, const Scene* scene)
 {
     std::vector<Tree> trees;

@@ -12,7 +12,7 @@ namespace lagen {
 /// in Pontryagin's form.
 [[nodiscard]] std::vector<std::size_t> carried_states(const Model& model, const std::string& form, const Scene* scene);
 
-/// Whether `tree` uses a state that is not among `carried`.
+/// True where `tree` uses a state that is not among `carried`.
 [[nodiscard]] bool uses_other_states(const Model& model, const Tree& tree, const std::vector<std::size_t>& carried);
 
 } // namespace lagen

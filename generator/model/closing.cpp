@@ -28,7 +28,7 @@ Tree first_forbidden(const std::vector<Tree>& trees, const Names& names, Roles r
     return find_name(trees, [&](const std::string& name) { return !roles.has(role_of(names, name)); });
 }
 
-/// Those that the model may have names of, in the order of the enumeration.
+/// The roles that the model may have names of, in the order of the enumeration.
 std::vector<Role> listed(const ModelReader& reader, Roles roles)
 {
     std::vector<Role> out;
@@ -106,7 +106,7 @@ std::string family_hint(const std::string& name, const Shape& shape)
 
 Item ModelReader::at(std::string_view block) const
 {
-    // Those of the groupoid are about the sections of the algebroid that a tangent probe leaves out.
+    // These two are about the sections of the algebroid, which a tangent probe leaves out.
     return is_tangent && (block == "groupoid" || block == "discrete") ? Item() : Item(document).at(block);
 }
 

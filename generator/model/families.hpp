@@ -8,14 +8,16 @@
 
 namespace lagen {
 
-/// What a key names: a symbol or a single entry ("y", "x[3]": a scalar), or a family with all its entries ("x").
+/// The things that a key names: a symbol or a single entry ("y", "x[3]": a scalar), or a family with all its entries
+/// ("x").
 struct ResolvedKey {
     std::string name; ///< as declared; "x[ 3 ]" is "x[3]"
     Shape shape;
     std::vector<std::size_t> indices; ///< shape.size() numbers in the list of symbols, by rows
 };
 
-/// What `key` names among `symbols` (families stand in them entry by entry); nothing where it names none of them.
+/// The symbols that `key` names among `symbols` (families stand in them entry by entry); nothing where it names none of
+/// them.
 [[nodiscard]] std::optional<ResolvedKey> resolve_key(const std::vector<Symbol>& symbols, const std::string& key);
 
 /// The same where it must name one: ModelError "OWNER names 'KEY', which is no NOUN". With a scope an index may be an
@@ -41,8 +43,8 @@ struct RunningKey {
 /// The names of a key "a,b" or "a, b, c". Commas inside W[1,2] do not separate.
 [[nodiscard]] std::vector<Excerpt> sides_of(const Excerpt& key);
 
-/// What to write instead of a key that names none of `symbols`: the entries of its family, a name like it, or some of
-/// the names there are.
+/// The text to write instead of a key that names none of `symbols`: the entries of its family, a name like it, or some
+/// of the names there are.
 [[nodiscard]] std::string hint_for_key(const std::vector<Symbol>& symbols, const std::string& key, const char* noun);
 
 /// The family of an entry: "x" of "x[3]", "W" of "W[1,2]"; any other name itself.
@@ -71,7 +73,7 @@ struct DeclaredKey {
 /// The number 0, as it is written.
 [[nodiscard]] bool is_plain_zero(const Tree& tree);
 
-/// What a setting names, with its indices as closing spells them: "x[n]" is "x[8]" where n is 8.
+/// The key of a setting, with its indices as closing spells them: "x[n]" is "x[8]" where n is 8.
 [[nodiscard]] std::string key_of(const ModelReader& reader, const Setting& setting);
 /// Where messages say that it stands.
 [[nodiscard]] const char* option_of(const Setting& setting);
@@ -91,14 +93,14 @@ struct SymbolGroup {
 void declare_symbols(ModelReader& reader, const std::vector<Symbol>& symbols, Role role);
 
 [[nodiscard]] std::vector<Symbol> parameter_symbols(const Model& model);
-/// Of [states].
+/// The symbols of [states].
 [[nodiscard]] std::vector<Symbol> state_symbols(const Model& model);
 [[nodiscard]] std::vector<Symbol> input_symbols(const Model& model);
 /// Throws ModelError where an invariant depends on an input: nothing is known of the rates of those.
 void refuse_inputs_in(const Model& model, const std::vector<NamedTree>& invariants);
-/// Those that are not bound.
+/// The parameters that are not bound.
 [[nodiscard]] std::vector<Symbol> free_parameters(const Model& model);
-/// Whether the step of [discrete] is a symbol of its own, none of the parameters.
+/// True where the step of [discrete] is a symbol of its own, none of the parameters.
 [[nodiscard]] bool has_own_step(const Model& model);
 
 /// Declares the symbols of one role and their families in `scope`.

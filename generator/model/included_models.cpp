@@ -364,30 +364,16 @@ std::vector<Tree> forces_of(const ModelReader& reader, const AlgebroidDraft& dra
     return forces;
 }
 
-/// Forces do not come without the inputs in them.
-void refuse_lost_inputs(const IncludedModel& file)
+/// Forces do not come without the inputs in them and the states that they follow from.
+void refuse_lost(const IncludedModel& file, const std::vector<Symbol>& symbols, const char* noun, const char* block)
 {
-    const std::vector<Symbol> inputs = input_symbols(file.model);
     for (const ComponentEntry& force : file.model.forces)
         for (const std::string& name : names_in(force.value))
-            if (index_of(inputs, name) < inputs.size())
-                throw ModelError(fmt::format("the forces of '{}' depend on its input '{}', and [inputs] do not come "
-                                             "with the forces of a file",
-                                             file.model.file->name, name),
-                                 file.of->where, "give this model [inputs] and [forces] of its own");
-}
-
-/// Forces do not come without what they follow from.
-void refuse_lost_states(const IncludedModel& file)
-{
-    const std::vector<std::string> states = names_of(state_symbols(file.model));
-    for (const ComponentEntry& force : file.model.forces)
-        for (const std::string& name : names_in(force.value))
-            if (std::ranges::find(states, name) != states.end())
-                throw ModelError(fmt::format("the forces of '{}' depend on its first-order state '{}', and [states] "
-                                             "do not come with the forces of a file",
-                                             file.model.file->name, name),
-                                 file.of->where, "give this model [states] and [forces] of its own");
+            if (index_of(symbols, name) < symbols.size())
+                throw ModelError(fmt::format("the forces of '{}' depend on its {} '{}', and {} do not come with the "
+                                             "forces of a file",
+                                             file.model.file->name, noun, name, block),
+                                 file.of->where, fmt::format("give this model {} and [forces] of its own", block));
 }
 
 } // namespace
@@ -411,8 +397,8 @@ void inherit_mechanics(ModelReader& reader)
     if (!reader.at("dissipation")) reader.dissipation = sum_or_nothing(dissipations);
     if (reader.at("forces")) return;
     for (const IncludedModel* file : files) {
-        refuse_lost_states(*file);
-        refuse_lost_inputs(*file);
+        refuse_lost(*file, state_symbols(file->model), "first-order state", "[states]");
+        refuse_lost(*file, input_symbols(file->model), "input", "[inputs]");
     }
     const std::vector<Tree> forces = forces_of(reader, *reader.draft, reader.model.algebroid);
     for (std::size_t a = 0; a < forces.size(); ++a)

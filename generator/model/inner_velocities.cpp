@@ -49,7 +49,7 @@ std::vector<Tree> ambient_values(const Model& model, const AlgebroidBlock& block
     return sums_of(own);
 }
 
-/// Those that a level set keeps are coordinates of its fibre already.
+/// The velocities that a level set keeps are coordinates of its fibre already.
 void define_ambient(ModelReader& reader, const AlgebroidBlock& block, const std::vector<Tree>& values)
 {
     const std::vector<Symbol> all = velocities_of(coordinates_of(reader.model, block));
@@ -65,7 +65,7 @@ void define_ambient(ModelReader& reader, const AlgebroidBlock& block, const std:
     define_velocities(reader, symbols, own);
 }
 
-/// What a file's fibre coordinates are in this model.
+/// Notes the values that a file's fibre coordinates have in this model.
 void note_values(IncludedModel& included, const std::vector<Tree>& y)
 {
     const std::vector<Symbol>& own = included.model.fibre.coordinates;

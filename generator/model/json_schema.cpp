@@ -53,7 +53,7 @@ void append_needs(Record& conditions, const char* needs)
     }
 }
 
-/// What each word of `kind` asks for; the first word stands where there is none in [algebroid].
+/// The conditions of each word of `kind`; the first word stands where there is none in [algebroid].
 void append_kinds(Record& conditions, std::string_view block)
 {
     bool first = block == "algebroid";

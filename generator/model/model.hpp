@@ -383,16 +383,16 @@ struct Model {
     Scope columns;  ///< the observer's with the coordinates of an arrow: what columns and curves may use
 };
 
-/// What runs follow as constant: the invariants, and the momenta of symmetries where nothing pushes and no control
-/// acts.
+/// The functions that runs follow as constant: the invariants, and the momenta of symmetries where nothing pushes and
+/// no control acts.
 [[nodiscard]] std::vector<NamedTree> conserved_trees(const Model& model);
 
 /// The scene called `name`; with an empty name `default`, else the first. Throws ModelError where there is none.
 [[nodiscard]] const Scene& find_scene(const Model& model, const std::string& name);
 
 [[nodiscard]] bool is_nonholonomic(const Model& model);
-/// What L, forces and R are written in: y, or Y of a nonholonomic model, the fibre coordinates of its ambient
-/// algebroid.
+/// The coordinates that L, forces and R are written in: y, or Y of a nonholonomic model, the fibre coordinates of its
+/// ambient algebroid.
 [[nodiscard]] const std::vector<Symbol>& ambient_fibre(const Model& model);
 
 /// All parameter names, then base, fibre, controls: the names of symbols that a model declares itself, besides momenta.

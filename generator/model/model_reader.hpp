@@ -101,9 +101,9 @@ void declare_groupoid(ModelReader& reader);
 void read_algebroid_kind(ModelReader& reader);
 /// The coordinates Y of a nonholonomic model. Throws ModelError for blocks that do not go with it.
 void declare_ambient(ModelReader& reader);
-/// Whether a nonholonomic model has `constraints` and no `sections`: its fibre coordinates are some of the Y then.
+/// True where a nonholonomic model has `constraints` and no `sections`: its fibre coordinates are some of the Y then.
 [[nodiscard]] bool has_constraints_alone(const ModelReader& reader);
-/// Those that the chooser finds; nothing where there is none.
+/// The fibre coordinates that the chooser finds; nothing where there is none.
 [[nodiscard]] std::optional<std::vector<Symbol>> chosen_coordinates(const ModelReader& reader);
 /// Made by the reading's FrameMaker.
 [[nodiscard]] LevelSetFrame frame_of_level_set(const ModelReader& reader, const LevelSetRequest& request);

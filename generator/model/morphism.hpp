@@ -26,7 +26,7 @@ struct MorphismFile {
 [[nodiscard]] const Model& source_of(const MorphismFile& morphism);
 [[nodiscard]] const Model& target_of(const MorphismFile& morphism);
 
-/// Whether the file has a [morphism] block.
+/// True where the file has a [morphism] block.
 [[nodiscard]] bool is_morphism(const std::shared_ptr<const SourceFile>& file);
 
 /// Reads a morphism file with its models; `settings` are of the source's parameters. Throws ModelError.

@@ -24,7 +24,7 @@ struct Model;
 [[nodiscard]] std::optional<std::size_t> find_plain(const std::vector<std::string>& names, const std::string& word,
                                                     const std::vector<std::string>& known);
 
-/// What the model calls anything that may be a column: symbols, entries of families, observables, definitions.
+/// The names of the model for anything that may be a column: symbols, entries of families, observables, definitions.
 [[nodiscard]] std::vector<std::string> all_names(const Model& model);
 
 } // namespace lagen

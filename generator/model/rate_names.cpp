@@ -43,7 +43,7 @@ void place_rates(std::vector<Tree>& rates, const std::vector<std::size_t>& place
     for (std::size_t k = 0; k < std::min(places.size(), y.size()); ++k) rates[places[k]] = y[k];
 }
 
-/// Whether a minus stands before `tree`, and what is behind it.
+/// True where a minus stands before `tree`, and the tree behind it.
 std::pair<bool, Tree> sign_and_size(const Tree& tree)
 {
     if (tree->kind == TreeKind::negate) return {true, tree->arguments[0]};
@@ -73,7 +73,7 @@ std::vector<Tree> anchored_rates(const Model& model, const AlgebroidBlock& block
     return rates;
 }
 
-/// What the rates are told by: names that stand for functions of y, or y alone.
+/// The names that rates are told by: those that stand for functions of y, or y alone.
 enum class RateTerms { names, fibre };
 
 /// rho^i_a y^a, one a coordinate of the model; null where it is zero or the block does not say it in so many words.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// What a person may have meant by xdot, dx or p_x: the rate of a base coordinate is a fibre coordinate, or what the
-/// anchor makes of several, and momenta are named after fibre coordinates.
+/// The meaning that a person may have had for xdot, dx or p_x: the rate of a base coordinate is a fibre coordinate, or
+/// what the anchor makes of several, and momenta are named after fibre coordinates.
 #pragma once
 
 #include "model/model.hpp"
@@ -22,7 +22,7 @@ struct CoordinateRate {
 /// algebroid are read. The anchor of a groupoid's action is not known here, and then neither are these.
 void define_rates(ModelReader& reader);
 
-/// Those that are short enough to be told. The entries of the model's algebroid must have been read.
+/// The rates that are short enough to be told. The entries of the model's algebroid must have been read.
 [[nodiscard]] std::vector<CoordinateRate> coordinate_rates(const Model& model);
 
 /// The hint for `name` where it is a usual name of a rate, such as xdot; empty where it is none.

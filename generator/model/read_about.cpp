@@ -10,7 +10,7 @@ namespace lagen {
 
 namespace {
 
-/// What keeps a text from standing inside a formula, and where; npos: nothing does.
+/// The reason why a text cannot stand inside a formula, and where it is; npos: it can.
 struct LatexDefect {
     std::size_t at = std::string::npos;
     const char* what = "";
@@ -56,7 +56,7 @@ std::string entry_latex(const std::string& family, const std::string& name)
     return with_below(family, indices);
 }
 
-/// What `about` says, for one of the symbols that its key names.
+/// The entry `about` for one of the symbols that its key names.
 Symbol for_symbol(const Symbol& about, const std::string& name, const SourceRange& where)
 {
     Symbol out = about;
@@ -127,7 +127,7 @@ void read_about(ModelReader& reader)
         if (!family && !is_entry(model, about.name))
             throw complain::names_no("[about]", item.name(), "name of the model", item.where(),
                                      hint_for(item.name(), known, "names"));
-        // What is said of an entry wins over what is said of its family, wherever it stands.
+        // An entry's own text wins over that of its family, wherever it stands.
         if (family)
             describe(model, about);
         else

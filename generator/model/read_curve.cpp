@@ -27,8 +27,8 @@ const NamedTree* momentum_named(const Model& model, const Excerpt& text)
         if (observable.name == text.text) return &observable;
         if (observable.name.starts_with(prefix)) known.push_back(observable.name);
     }
-    throw ModelError(fmt::format("there is no symmetry called '{}'", text.text.substr(prefix.size())),
-                     text.range(0, text.text.size()), hint_for(text.text, known, "momenta"));
+    throw complain::unknown_word("a column", text.text, text.range(0, text.text.size()), known,
+                                 "momenta of symmetries");
 }
 
 /// The observable "reaction.Y" of a nonholonomic model; nothing for every other text.
@@ -39,9 +39,8 @@ std::optional<std::string> reaction_named(const Model& model, const Excerpt& tex
     const std::string coordinate = text.text.substr(prefix.size());
     const std::vector<Symbol>& ambient = ambient_fibre(model);
     if (std::ranges::find(ambient, coordinate, &Symbol::name) != ambient.end()) return text.text;
-    throw ModelError(fmt::format("there is no ambient fibre coordinate called '{}'", coordinate),
-                     text.range(0, text.text.size()),
-                     hint_for(coordinate, declared_names(ambient), "ambient fibre coordinates"));
+    throw complain::names_no("a reaction", coordinate, "ambient fibre coordinate", text.range(0, text.text.size()),
+                             hint_for(coordinate, declared_names(ambient), "ambient fibre coordinates"));
 }
 
 /// The parts between colons.
@@ -78,10 +77,9 @@ std::vector<PlotCurve> read_curve(const Model& model, const Scope& scope, const 
     std::size_t count = 1;
     const std::vector<Excerpt> parts = parts_of(text);
     if (parts.size() != 2 && parts.size() != 3)
-        throw ModelError(fmt::format("the curve {} has {} coordinate{}, where two or three with colons between them "
-                                     "are required",
-                                     quote(text.text), parts.size(), parts.size() == 1 ? "" : "s"),
-                         where, "\"t:x\" is a graph, \"x:y\" a curve in the plane, \"x:y:z\" one in space");
+        throw complain::wrong_number(fmt::format("coordinates of the curve {}", quote(text.text)), parts.size(),
+                                     "a picture", "two or three with colons between them", where,
+                                     "\"t:x\" is a graph, \"x:y\" a curve in the plane, \"x:y:z\" one in space");
     for (const Excerpt& part : parts) {
         coordinates.push_back(observed_columns(model, scope, part));
         const std::size_t entries = coordinates.back().size();
@@ -109,9 +107,7 @@ void add_panel(Plot& plot, std::vector<PlotCurve> curves)
 {
     std::size_t count = curves.size();
     for (const auto& panel : plot.panels) count += panel.size();
-    if (count > most_curves)
-        throw ModelError(fmt::format("the picture has {} curves, more than {}", count, most_curves),
-                         curves.back().where);
+    if (count > most_curves) throw complain::too_many("the picture", count, "curves", most_curves, curves.back().where);
     for (const PlotCurve& curve : curves)
         if (curve.coordinates.size() != curves.front().coordinates.size())
             throw ModelError("a curve in space stands beside one in the plane", curve.where,

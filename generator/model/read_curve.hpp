@@ -6,8 +6,8 @@
 
 namespace lagen {
 
-/// What `text` names: one column, or one an entry where it is a vector or a matrix. `scope` is Model::columns. Throws
-/// ModelError as closing does.
+/// The columns that `text` names: one column, or one an entry where it is a vector or a matrix. `scope` is
+/// Model::columns. Throws ModelError as closing does.
 [[nodiscard]] std::vector<NamedTree> observed_columns(const Model& model, const Scope& scope, const Excerpt& text);
 
 /// "x:y" and "x:y:z". Vectors of n entries make n curves, and a scalar beside them stands in each. Throws ModelError:
@@ -18,7 +18,7 @@ namespace lagen {
 /// the plot has more than 1000 curves.
 void add_panel(Plot& plot, std::vector<PlotCurve> curves);
 
-/// Whether the curves of a panel lie in space.
+/// True where the curves of a panel lie in space.
 [[nodiscard]] bool is_in_space(const std::vector<PlotCurve>& panel);
 
 /// The coordinates of all curves of the scene's picture, `t` apart.

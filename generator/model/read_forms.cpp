@@ -271,7 +271,7 @@ NamedForm read_form(const ModelReader& reader, const Item& block)
     if (const Item closed = block.at("closed")) {
         form.closed = closed.value().boolean;
         if (!form.closed)
-            throw complain::is_not(closed.title(), "false", "a claim", closed.value().where,
+            throw complain::is_not(closed.title(), "false", "true", closed.value().where,
                                    "leave it out: without a claim `check` says whether the form is closed");
         require_few_components(form.degree + 1, r, "d of " + block.title(), closed.value().where);
     }

@@ -293,9 +293,10 @@ void read_discrete(ModelReader& reader)
             throw complain::beside(
                 other.title(), "a discrete Lagrangian that is written out, which has no place for it", other.where(),
                 "forces act on discrete motions that a scheme makes: [discrete] scheme = \"midpoint\"");
-    const ArrayValue closed = reader.array(L);
+    const Tree tree = read_expression(L.value(), L.title());
+    const ArrayValue closed = reader.close(tree, L.row().roles, L.title());
     if (closed.shape.rank != Rank::scalar)
-        throw complain::is_not(L.title(), to_text(closed.shape), "a scalar", L.value().where,
+        throw complain::is_not(L.title(), to_text(closed.shape), "a scalar", tree->where,
                                "a norm is written norm(x), a trace trace(W)");
     block.lagrangian = closed.entries[0];
 }

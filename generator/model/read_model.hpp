@@ -23,7 +23,7 @@ struct Setting {
 /// ambient_fibre, where [fibre] leaves that open; of a model that is read as far as its base.
 using KeptChooser = std::function<std::vector<std::size_t>(const Model&)>;
 
-/// What a file says of the frame of a level set.
+/// The words of a file on the frame of a level set.
 struct LevelSetRequest {
     std::vector<std::size_t> kept;       ///< base coordinates whose velocities are to be the fibre's; empty: left open
     std::optional<std::size_t> sections; ///< the number of fibre coordinates; nothing: left open
@@ -40,7 +40,7 @@ struct LevelSetFrame {
 /// Makes one, of a model that is read as far as its base. Throws ModelError where there is none.
 using FrameMaker = std::function<LevelSetFrame(const Model&, const LevelSetRequest&)>;
 
-/// What the reading of a model leaves to those who know geometry.
+/// The choices that the reading of a model leaves to those who know geometry.
 struct Choosers {
     KeptChooser kept;
     FrameMaker frame;

@@ -30,7 +30,7 @@ bool is_among(const std::vector<Symbol>& symbols, const std::string& name)
     return index_of(symbols, name) < symbols.size();
 }
 
-/// What was meant by a name that is no coordinate.
+/// The hint at the coordinate that was meant by another name.
 std::string hint_for_start(const ModelReader& reader, const std::string& unknown)
 {
     const Model& model = reader.model;

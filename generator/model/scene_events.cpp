@@ -54,7 +54,8 @@ std::vector<NamedTree> read_jump(const ModelReader& reader, const Item& block, c
                    [&](const std::string& name) { return hint_for_key(settable_symbols(model), name, "coordinates"); });
     for (const NamedTree& each : jump) require_free(reader, each, title);
     if (sets_one_of(jump, model.fibre.coordinates) && sets_one_of(jump, model.fibre.momenta))
-        throw complain::both(block.title(), "fibre coordinates", "momenta", block.where());
+        throw ModelError(fmt::format("the jump of {} sets fibre coordinates and momenta", title), block.where(),
+                         "keep one kind: each follows from the other");
     return jump;
 }
 

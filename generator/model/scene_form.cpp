@@ -231,9 +231,7 @@ std::vector<std::string> forms_of(const Model& model)
 void require_form(const Model& model, const std::string& form, const std::string& what, const SourceRange& where)
 {
     const std::vector<std::string>& known = form_names();
-    if (std::ranges::find(known, form) == known.end())
-        throw ModelError(fmt::format("{} is '{}', which is no form", what, form), where,
-                         hint_for(form, known, "forms"));
+    if (std::ranges::find(known, form) == known.end()) throw complain::unknown_word(what, form, where, known, "forms");
     const std::vector<std::string> forms = forms_of(model);
     if (std::ranges::find(forms, form) == forms.end())
         throw ModelError(fmt::format("{} is '{}', but the model has {}", what, form, form_named(form).needs), where,

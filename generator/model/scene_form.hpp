@@ -47,11 +47,12 @@ struct JumpObstacle {
 [[nodiscard]] std::optional<JumpObstacle> obstacle_to_jump(const Model& model, const Event& event,
                                                            const std::string& form);
 
-/// Whether `tree` has a value in this form: controls have one in Pontryagin's alone, coordinates of an arrow in the
+/// True where `tree` has a value in this form: controls have one in Pontryagin's alone, coordinates of an arrow in the
 /// discrete one, which has neither velocities nor a Hamiltonian.
 [[nodiscard]] bool has_value(const Model& model, const Tree& tree, const std::string& form);
 
-/// What is claimed to be conserved and has no value in this form, and the first-order states where it has none.
+/// The names of what is claimed to be conserved and has no value in this form, and the first-order states where it has
+/// none.
 [[nodiscard]] std::vector<std::string> names_without_values(const Model& model, const std::string& form);
 
 /// `scene` with another form: "state" in `observe` means the states of that form. Throws MathematicsError where the

@@ -25,8 +25,8 @@ struct Missing {
 /// The names of the entries.
 [[nodiscard]] std::set<std::string> given_names(const std::vector<NamedTree>& entries);
 
-/// What `block` says, on top of `scene` (empty, or the scene that it is like). Parameters set on the command line win
-/// over the scene's.
+/// The scene of `block`, on top of `scene` (empty, or the scene that it is like). Parameters set on the command line
+/// win over the scene's.
 [[nodiscard]] Scene read_scene(const ModelReader& reader, Scene scene, const Item& block);
 void read_scene_events(const ModelReader& reader, Scene& scene, const Item& block);
 /// `element`, `next` and `steps`.

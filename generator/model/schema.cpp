@@ -195,7 +195,7 @@ void require_keys(const Item& block)
     require_needs(block, owner, kind->needs);
 }
 
-/// What a value of a kind is, for a sentence, and what TOML has for it; in the order of the enumeration.
+/// How a sentence calls a value of a kind, and the values of TOML that stand for it; in the order of the enumeration.
 struct WrittenAs {
     const char* wanted;
     std::vector<TomlKind> kinds;

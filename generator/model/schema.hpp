@@ -11,7 +11,7 @@
 
 namespace lagen {
 
-/// What may stand behind a key.
+/// The kinds of value that a key may have.
 enum class ValueKind {
     text,       ///< a string without control characters
     word,       ///< one of the row's words
@@ -112,7 +112,7 @@ class Item {
     explicit operator bool() const { return entry_ != nullptr; }
     /// The entry of a table; nothing where there is none, or no table.
     [[nodiscard]] Item at(std::string_view key) const;
-    /// Those of a table, in the order of the file.
+    /// The entries of a table, in the order of the file.
     [[nodiscard]] std::vector<Item> items() const;
 
     [[nodiscard]] const TomlEntry& entry() const { return *entry_; }

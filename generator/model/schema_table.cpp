@@ -24,6 +24,9 @@ constexpr SchemaRow row(std::string_view path, ValueKind kind, const char* text,
     return {path, kind, text, title, roles};
 }
 
+constexpr const char* ends =
+    "source = \"from.toml\" and target = \"to.toml\", or compose = [\"first.toml\", \"second.toml\"]";
+
 constexpr SchemaRow rows[] = {
     row("", table, "A model: a Lie algebroid, and mechanics on it", "the model"),
     row("name", text, "name of the generated class, a C++ identifier", "the name"),
@@ -231,10 +234,8 @@ constexpr SchemaRow rows[] = {
     row("morphism", table, "in the place of a model: a map between two models")
         .needing("compose|source? compose|target? compose|base? compose|fibre? compose|parameters? compose|controls? "
                  "compose|element?"),
-    row("morphism.source", text, "the file of the model where it starts")
-        .like("source = \"model.toml\", or compose = [\"first.toml\", \"second.toml\"]"),
-    row("morphism.target", text, "the file of the model where it ends")
-        .like("target = \"model.toml\", or compose = [\"first.toml\", \"second.toml\"]"),
+    row("morphism.source", text, "the file of the model where it starts").like(ends),
+    row("morphism.target", text, "the file of the model where it ends").like(ends),
     row("morphism.compose", strings, "files of morphisms that follow each other")
         .like("compose = [\"first.toml\", \"second.toml\"]"),
     row("morphism.equals", text, "the file of a morphism that is claimed to be the same map"),

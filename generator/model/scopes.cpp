@@ -71,7 +71,7 @@ void require_sound_definitions(const ModelReader& reader)
     }
 }
 
-/// What observables, invariants and events may use, and the model's other expressions may not.
+/// Explains the names that observables, invariants and events may use and the model's other expressions may not.
 void explain_observed(Scope& scope, const Model& model)
 {
     for (const std::string& momentum : declared_names(model.fibre.momenta))

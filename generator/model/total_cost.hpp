@@ -9,7 +9,7 @@ namespace lagen {
 
 inline constexpr const char* total_cost_name = "total_cost";
 
-/// Whether state k is that one; one that a model declares itself is not.
+/// True where state k is that one; one that a model declares itself is not.
 [[nodiscard]] inline bool is_total_cost(const Model& model, std::size_t k)
 {
     const Symbol& symbol = model.states[k].symbol;

@@ -50,8 +50,10 @@ bool is_message(const std::string& path, const SourceText& literal)
 {
     const auto in = [&](const char* room) { return path.find(std::string("/generator/") + room) != std::string::npos; };
     if (word_count(literal.text) < 3 || is_called(literal, "InternalError")) return false;
-    const bool documents = path.ends_with("/model/schema_table.cpp") && is_called(literal, "row"); // of `lagen schema`
-    if (documents || literal.text.starts_with(" EOF FILE ")) return false;                         // or no sentence
+    const bool documents =
+        path.ends_with("/json_schema.cpp") || (path.ends_with("/schema_table.cpp") && !is_called(literal, "like") &&
+                                               !literal.text.starts_with("source = ")); // `lagen schema` prints it
+    if (documents || literal.text.starts_with(" EOF FILE ")) return false;              // or it is no sentence
     if (in("graph/") || in("proof/") || in("symbolic/")) return false;
     return in("expression/") || in("model/") || is_called(literal, "Error") || is_called(literal, "refuse") ||
            is_called(literal, "fail");
