@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "equations/cartan.hpp"
+/// The Cartan sections of a discrete Lagrangian for a person, with what is decided of them (mechanics/cartan.hpp).
+#include "equations/derivations.hpp"
 
 #include "equations/decided_statement.hpp"
-#include "equations/discrete.hpp"
+#include "equations/symbolic_model.hpp"
 #include "graph/core/lower.hpp"
 #include "mechanics/cartan.hpp"
 #include "verify/arrow_decider.hpp"

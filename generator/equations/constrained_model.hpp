@@ -11,7 +11,7 @@ namespace lagen {
 
 class ConstrainedModel {
   public:
-    /// Of a model that has L. Keeps references.
+    /// The model has L. Keeps references.
     ConstrainedModel(const Model& model, const System& system, const DefinitionChoice& choice = {});
 
   protected:

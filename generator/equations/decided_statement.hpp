@@ -10,7 +10,7 @@
 
 namespace lagen {
 
-/// What should vanish, and the names of its sections.
+/// An expression that should vanish, and the names of its sections.
 struct NamedResidual {
     std::vector<std::string> component;
     NodeId value;
@@ -20,7 +20,7 @@ struct NamedResidual {
 [[nodiscard]] std::vector<NamedResidual> residuals_of(const ExteriorForm& form,
                                                       const std::function<std::string(std::size_t)>& name_of);
 
-/// What `decider` decides; undecided where there is none, for constraints that are not triangular.
+/// The decision by `decider`; undecided where there is none, for constraints that are not triangular.
 [[nodiscard]] Decision decision_by(const ZeroDecider* decider, NodeId residual);
 
 /// The statement that all of them vanish: proved, refuted by the first that certainly does not, else undecided. Without

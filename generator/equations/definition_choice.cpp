@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Uses of names are counted in what was derived with them.
-#include "equations/definition_choice.hpp"
+/// Which definitions of a model stay symbols in its derived equations. Uses of names are counted in what was derived
+/// with them.
+#include "equations/kept_symbols.hpp"
 
 #include "expression/find_part.hpp"
 #include "expression/fold.hpp"

@@ -9,8 +9,8 @@
 
 namespace lagen {
 
-/// What `derive` can print: form_names(), "exterior", "cartan", "poisson", "invariants", "variations", and "reaction"
-/// and "projected" of nonholonomic models.
+/// The forms that `derive` can print: form_names(), "exterior", "cartan", "poisson", "invariants", "variations", and
+/// "reaction" and "projected" of nonholonomic models.
 [[nodiscard]] std::vector<std::string> derivation_names();
 
 /// `form` is one of derivation_names(); `brackets`: functions on E* by pairs, for "poisson". Throws MathematicsError

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "equations/discrete.hpp"
+/// Discrete Lagrangian mechanics for a person: the target of an arrow g, the momenta F^-L(g) at its source and F^+L(g)
+/// at its target, and the discrete Euler-Lagrange equations F^+L(g) = F^-L(h) of two arrows with t(g) = s(h).
+#include "equations/derivations.hpp"
 
 #include "equations/given_blocks.hpp"
+#include "equations/symbolic_model.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/lower.hpp"
 #include "mechanics/discrete.hpp"

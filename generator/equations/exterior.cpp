@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "equations/exterior.hpp"
+/// The exterior differential of a Lie algebroid on the coordinates and on the dual of its frame.
+#include "equations/derivations.hpp"
 
 #include "equations/symbolic_model.hpp"
 #include "graph/core/lower.hpp"

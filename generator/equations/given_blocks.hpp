@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// What a model gives, as it stands before its equations: L, the brackets, the constraints of M, claimed invariants.
+/// The data that a model gives, as they stand before its equations: L, the brackets, the constraints of M, claimed
+/// invariants.
 #pragma once
 
 #include "equations/symbolic_model.hpp"

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "equations/hamilton.hpp"
+/// Hamilton's equations on the dual of a Lie algebroid, symbolic, for a person to read:
+///   xdot^i = rho^i_a dH/dmu_a,   mudot_a = -rho_a(H) - mu_c C^c_ab dH/dmu_b + Q_a(t, x, dH/dmu)
+///   {mu_a, x^j} = rho^j_a,   {mu_a, mu_b} = C^c_ab mu_c,   Fdot = {H, F} + dF/dt + Q_a dF/dmu_a
+///   dH/dt = Q_a dH/dmu_a + (dH/dt at fixed x, mu)                          [de Leon-Marrero-Martinez 2005]
+/// H is the model's own, or the Legendre transform of its L: written out where the momenta are affine in y with a W
+/// that falls into small blocks, else left implicit, with y(x, mu) from mu_a = dL/dy^a, rho_a(H) = -rho_a(L) at that y.
+#include "equations/derivations.hpp"
 
 #include "equations/given_blocks.hpp"
 #include "equations/legendre.hpp"
-#include "equations/poisson.hpp"
+#include "equations/symbolic_model.hpp"
 #include "model/form.hpp"
 #include "text/activity.hpp"
 #include "verify/legendre_obstacle.hpp"

@@ -3,17 +3,48 @@
 /// and other long terms. A derivative of what is written in them is a total one, by the chain rule.
 #pragma once
 
-#include "equations/definition_choice.hpp"
 #include "expression/tree_identity.hpp"
 #include "model/model.hpp"
 #include "symbolic/ginac_door.hpp"
 #include "typeset/equation_set.hpp"
 
+#include <exception>
+#include <functional>
 #include <optional>
+#include <set>
 
 namespace lagen {
 
-/// Whether the operation of the node is not differentiated: a comparison, a selection, a function with kinks or jumps.
+/// How a derivation treats the definitions of the model.
+enum class Definitions {
+    expanded, ///< all are written out in coordinates and parameters
+    kept,     ///< those that pay for their names stay symbols, where the derivation can
+};
+
+/// Which definitions stay symbols.
+struct DefinitionChoice {
+    bool kept = false;                       ///< false: none, everything is written out in coordinates and parameters
+    std::set<std::string> dropped = {};      ///< names that are written out all the same
+    std::size_t longest = std::string::npos; ///< characters of equations, above which the derivation is given up
+};
+
+/// A derivation throws this that would need more names than anybody reads, or grows above its `longest`.
+class TooMuchToRead : public std::exception {};
+
+/// `derivation` with the definitions that pay for their names: those that stand twice in one block or three times in
+/// all, or are long. Others are written out; so are those made of sines and cosines where that leaves less than two
+/// thirds, and all where that is shorter than a long form with symbols or the derivation does not go through with them.
+[[nodiscard]] EquationSet with_definitions(const Model& model, Definitions definitions,
+                                           const std::function<EquationSet(const DefinitionChoice&)>& derivation);
+
+/// Nodes of a tree when it is written out, counted to some thousand.
+[[nodiscard]] std::size_t written_nodes(const Tree& tree);
+
+/// Every tree of a block.
+void for_each_tree(const EquationBlock& block, const std::function<void(const Tree&)>& visit);
+
+/// True where the operation of the node is not differentiated: a comparison, a selection, a function with kinks or
+/// jumps.
 [[nodiscard]] bool is_rough(const TreeNode& node);
 
 class KeptSymbols {
@@ -35,12 +66,12 @@ class KeptSymbols {
     /// A function in the shorter of two forms: as it is, or with definitions that move with `moving` written out and
     /// the coefficients of these in terms of those that do not: I w^2/2 for (J + m a^2) w^2/2 where I = J + m a^2.
     [[nodiscard]] GiNaC::ex reduced(const GiNaC::ex& whole, const GiNaC::exvector& moving);
-    /// Whether it is plainly zero when all symbols are written out.
+    /// True where it is plainly zero when all symbols are written out.
     [[nodiscard]] bool vanishes(GiNaC::ex f);
     /// A symbol for `value` where that is long, else `value`.
     [[nodiscard]] GiNaC::ex named(const std::string& name, const GiNaC::ex& value);
 
-    /// What the symbols in `equations` stand for, and those in these.
+    /// The values of the symbols in `equations`, and of those in these.
     [[nodiscard]] std::vector<WhereEntry> where(const EquationSet& equations);
     /// LaTeX of derivatives by symbols that have one.
     void append_latex(EquationSet& equations) const;

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "equations/lagrange.hpp"
+/// Lagrange's equations on a Lie algebroid, symbolic, for a person to read:
+///   xdot^i = rho^i_a y^a,   p_a = dL/dy^a,   d/dt p_a = rho_a(L) - p_c C^c_ab y^b + Q_a               (momentum form)
+///   W_ab ydot^b = rho_a(L) - (d2L/dy^a dx^i) rho^i_b y^b - d2L/dy^a dt - p_c C^c_ab y^b + Q_a     (acceleration form)
+///   Q_a = forces_a - dR/dy^a,   E_L = y^a p_a - L,   dE_L/dt = Q_a y^a - dL/dt                   [Martinez 2001]
+#include "equations/derivations.hpp"
 
 #include "equations/given_blocks.hpp"
 #include "expression/parse.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "equations/lagrangian_cartan.hpp"
+/// The Cartan sections of L in continuous time for a person, with what is decided of them (mechanics/symplectic.hpp).
+#include "equations/derivations.hpp"
 
 #include "algebroid/prolongation.hpp"
 #include "equations/decided_statement.hpp"

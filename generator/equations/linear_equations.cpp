@@ -37,7 +37,7 @@ std::optional<GiNaC::exvector> solve_by_determinants(const SquareMatrix& A, cons
     return z;
 }
 
-/// Of numbers A; nothing where A is singular.
+/// The matrix A is one of numbers; nothing comes where A is singular.
 std::optional<GiNaC::exvector> solve_by_elimination(const SquareMatrix& A, const GiNaC::exvector& b)
 {
     const Factorisation<GiNaC::ex> factors = factorise(A.entries, A.order);

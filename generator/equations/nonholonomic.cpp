@@ -1,5 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "equations/nonholonomic.hpp"
+/// The equations of a nonholonomic model (mechanics/nonholonomic.hpp), symbolic, for a person to read:
+///   e_alpha = A_alpha^a e_a,   Y = b + y^alpha e_alpha,   xdot = rho(Y),   l(t, x, y) = L(t, x, Y)
+///   [e_alpha, e_beta]^a = rho(e_alpha)(A_beta^a) - rho(e_beta)(A_alpha^a) + A_alpha^c A_beta^d C^a_cd
+///   d/dt p_alpha = rho(e_alpha)(l) - P_a [e_alpha, Y]^a + P_a dA_alpha^a/dt + Q_alpha,   p_alpha = dl/dy^alpha, P =
+///   dL/dY lambda_a = d/dt P_a - rho_a(L) + P_c C^c_ab Y^b - Q_a (reactions) [e_alpha, e_beta]_D = G^{gamma delta}
+///   G(e_delta, [e_alpha, e_beta]) e_gamma        (projected; L = G(Y, Y)/2 - V)
+/// [Cortes, de Leon, Marrero, Martinez 2009]
+#include "equations/derivations.hpp"
 
 #include "equations/constrained_model.hpp"
 #include "equations/given_blocks.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Reactions, projected brackets and the form on D* of nonholonomic models.
 #include "equations/constrained_model.hpp"
-#include "equations/nonholonomic.hpp"
+#include "equations/derivations.hpp"
 #include "graph/core/lower.hpp"
 #include "mechanics/hamilton.hpp"
 #include "model/form.hpp"
@@ -262,8 +262,8 @@ class NonholonomicForms : ConstrainedModel {
         return block;
     }
 
-    /// Of a coordinate of the base or a momentum and two momenta: the first that certainly does not vanish, else the
-    /// first that is not shown to vanish; no equations where all are.
+    /// The triples are a coordinate of the base or a momentum and two momenta: the first that certainly does not
+    /// vanish, else the first that is not shown to vanish; no equations where all are.
     [[nodiscard]] EquationBlock jacobiator()
     {
         EquationBlock block{"Jacobiator, the first that does not vanish",

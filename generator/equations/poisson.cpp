@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "equations/poisson.hpp"
+/// The Poisson structure of E* for a person, with what is decided of it (mechanics/symplectic.hpp).
+#include "equations/derivations.hpp"
 
 #include "equations/decided_statement.hpp"
+#include "equations/symbolic_model.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/lower.hpp"
 #include "mechanics/hamilton.hpp"
@@ -139,7 +141,7 @@ class PoissonDerivation {
 
     [[nodiscard]] NodeId bracket_of(NodeId F, NodeId G) { return poisson_bracket(graph_, system_, F, G); }
 
-    /// Of all triples of coordinates of which two at least are momenta; the others vanish term by term.
+    /// The triples of coordinates are those of which two at least are momenta; the others vanish term by term.
     [[nodiscard]] DecidedStatement jacobi()
     {
         const std::vector<NodeId> z = coordinates();

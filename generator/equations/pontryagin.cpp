@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "equations/pontryagin.hpp"
+/// Pontryagin's equations of an optimal control problem on a Lie algebroid, normal extremals, for a person to read:
+///   H(x, mu, u) = mu_a sigma^a(x, u) - cost(x, u),   u maximises H: dH/du^A = 0 where no bound is reached
+///   xdot^i = rho^i_a sigma^a,   mudot_a = -rho_a(H) - mu_c C^c_ab sigma^b,   dH/dt = dH/dt at fixed x, mu, u
+///                                                                                            [Martinez 2004]
+#include "equations/derivations.hpp"
 
 #include "equations/given_blocks.hpp"
 #include "equations/linear_equations.hpp"

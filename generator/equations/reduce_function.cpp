@@ -18,7 +18,7 @@ GiNaC::exvector parts_of(const GiNaC::ex& e)
 
 } // namespace
 
-/// Of definitions on points D = c k + rest with a parameter k that is nowhere in the rest: k and (D - rest)/c.
+/// For definitions on points D = c k + rest with a parameter k that is nowhere in the rest: k and (D - rest)/c.
 std::vector<std::pair<GiNaC::ex, GiNaC::ex>> KeptSymbols::pivots()
 {
     std::vector<std::pair<GiNaC::ex, GiNaC::ex>> result;

@@ -17,7 +17,54 @@ bool is_zero(const Tree& tree)
     return tree->kind == TreeKind::number && tree->number == 0;
 }
 
+/// An expansion keeps the place of the definition: what the user wrote out a second time stands elsewhere.
+bool is_expansion(const Tree& tree, const Tree& value)
+{
+    const SourceRange& here = tree->where;
+    const SourceRange& there = value->where;
+    return there.file != nullptr && here.file == there.file && here.begin == there.begin && here.end == there.end &&
+           same_tree(tree, value);
+}
+
+/// `tree` with every expansion of a Casimir that was written by its name replaced by that name: the labels of leaves
+/// are constants of the motion, and equations read better with them.
+Tree label_casimirs(const Tree& tree, const std::vector<NamedTree>& casimirs)
+{
+    return rewrite(tree, [&](const Tree& node) {
+        Tree label;
+        for (const NamedTree& casimir : casimirs)
+            if (is_expansion(node, casimir.value)) label = name(casimir.name, node->where);
+        return label;
+    });
+}
+
 } // namespace
+
+void append_right_side(EquationBlock& block, const std::vector<FormulaTerm>& terms)
+{
+    const auto occurs = [&](const std::string& label) { // groups with like terms are one, "ρ_a(L) - p_c C^c_ab y^b"
+        const std::string unsigned_label = label.substr(label.starts_with('-') ? 1 : 0);
+        return std::ranges::any_of(block.equations, [&](const Equation& equation) {
+            return std::ranges::any_of(equation.groups, [&](const TermGroup& group) {
+                return group.label.find(unsigned_label) != std::string::npos;
+            });
+        });
+    };
+    const auto append = [](std::string& formula, const std::string& term, bool first) {
+        const bool negative = term.starts_with('-');
+        formula += first ? " = " + term : (negative ? " - " : " + ") + term.substr(negative ? 1 : 0);
+    };
+    bool first = true;
+    for (const FormulaTerm& term : terms) {
+        if (!occurs(term.label)) continue;
+        append(block.formula, term.label, first);
+        append(block.latex_formula, term.latex, first);
+        first = false;
+    }
+    if (!first) return;
+    append(block.formula, "0", true);
+    append(block.latex_formula, "0", true);
+}
 
 GiNaC::ex total(const Sum& terms)
 {
@@ -182,7 +229,7 @@ GiNaC::ex SymbolicModel::lower(const Tree& tree)
     return to_ginac(kept_->folded(label_casimirs(tree, labels_)), symbols_);
 }
 
-/// What is not smooth stands for itself: it is not differentiated, and comes back as it is written.
+/// An expression that is not smooth stands for itself: it is not differentiated, and comes back as it is written.
 GiNaC::ex SymbolicModel::lower_rough(const Tree& tree)
 {
     return to_ginac(rewrite(kept_->folded(label_casimirs(tree, labels_)),

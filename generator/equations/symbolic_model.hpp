@@ -3,9 +3,7 @@
 /// brought to its own shortest form, in an order and with signs of our own, so that the text is the same on every run.
 #pragma once
 
-#include "equations/formula_term.hpp"
 #include "equations/kept_symbols.hpp"
-#include "equations/label_casimirs.hpp"
 #include "mechanics/written_algebroid.hpp"
 #include "model/model.hpp"
 #include "symbolic/shortest_form.hpp"
@@ -26,6 +24,16 @@ struct Group {
     std::string label;
     GiNaC::ex value;
 };
+
+/// A group of terms in the formula over a block: its label, which begins with '-' where it is subtracted, and LaTeX for
+/// the same.
+struct FormulaTerm {
+    std::string label, latex;
+};
+
+/// Appends " = " and the groups to the block's formula, the left side so far: those that occur in its equations, or 0
+/// where none does.
+void append_right_side(EquationBlock& block, const std::vector<FormulaTerm>& terms);
 
 class SymbolicModel {
   public:
@@ -125,7 +133,8 @@ class SymbolicModel {
     std::vector<GiNaC::ex> bracket_;    ///< bracket_[(a r + b) r + c] = C^c_ab
 };
 
-/// What `derivation` gives; an exception of GiNaC becomes a MathematicsError that says whose `equations` failed.
+/// The set that `derivation` gives; an exception of GiNaC becomes a MathematicsError that says whose `equations`
+/// failed.
 [[nodiscard]] EquationSet derived(const Model& model, const char* equations,
                                   const std::function<EquationSet()>& derivation);
 /// The same with definitions as symbols.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "equations/variations.hpp"
+/// The variations of E-paths and of the action of L for a person, with what is decided of them
+/// (mechanics/variations.hpp).
+#include "equations/derivations.hpp"
 
 #include "equations/decided_statement.hpp"
 #include "equations/symbolic_model.hpp"

@@ -3,8 +3,7 @@
 #pragma once
 
 #include "elaborate/build_algebroid.hpp"
-#include "equations/hamilton.hpp"
-#include "equations/lagrange.hpp"
+#include "equations/derivations.hpp"
 #include "model/read_model.hpp"
 #include "support/model_equations.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Casimirs in L by name stay names in the equations; written out, they stay written out.
 #include "elaborate/build_algebroid.hpp"
-#include "equations/lagrange.hpp"
+#include "equations/derivations.hpp"
 #include "model/read_model.hpp"
 #include "typeset/print_equations.hpp"
 

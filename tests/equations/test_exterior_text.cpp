@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// dx^i and de^a as they are printed.
 #include "elaborate/elaborate.hpp"
-#include "equations/exterior.hpp"
+#include "equations/derivations.hpp"
 #include "model/read_model.hpp"
 #include "typeset/print_equations.hpp"
 

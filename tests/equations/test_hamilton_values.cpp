@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Hamilton's equations as numbers: against reference points that share no code with lagen.
 #include "elaborate/build_algebroid.hpp"
-#include "equations/hamilton.hpp"
+#include "equations/derivations.hpp"
 #include "equations/numbers.hpp"
 #include "model/read_model.hpp"
 #include "support/reference_case.hpp"

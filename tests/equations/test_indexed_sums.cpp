@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Sums over indices of families in derived equations: equal to their terms, exact texts; what the model gives.
 #include "equations/written/every_size.hpp"
-#include "equations/written/index_pattern.hpp"
+#include "equations/written/index_shape.hpp"
 #include "equations/written_blocks.hpp"
 #include "support/golden.hpp"
 

@@ -6,7 +6,7 @@
 
 namespace lagen {
 
-/// Whether both sides are sums of values: no form, section or bracket.
+/// True where both sides are sums of values: no form, section or bracket.
 [[nodiscard]] bool is_plain(const Equation& equation);
 
 [[nodiscard]] Tree array_of(std::vector<Tree> entries);

@@ -176,7 +176,7 @@ class LetterCount {
     std::size_t parts_ = 0;
 };
 
-/// Whether nothing stands in the equations but L, whose families run to the one size.
+/// True where nothing stands in the equations but L, whose families run to the one size.
 bool has_one_size(const Model& model)
 {
     const auto is_bound = [](const Parameter& parameter) { return parameter.bound; };
@@ -216,7 +216,7 @@ class Resizing {
     {
     }
 
-    /// Whether all are functions of every size, with fewer letters than `size`.
+    /// True where all are functions of every size, with fewer letters than `size`.
     [[nodiscard]] bool is_of_every_size()
     {
         const auto is_one = [&](const EquationBlock& block) {
@@ -227,7 +227,7 @@ class Resizing {
                std::ranges::all_of(equations_.given, is_one) && std::ranges::all_of(equations_.blocks, is_one);
     }
 
-    /// Whether they are those that were derived at the other size.
+    /// True where they are those that were derived at the other size.
     [[nodiscard]] bool agrees(const EquationSet& derived, long other)
     {
         const auto same = [&](const EquationBlock& a, const EquationBlock& b) {

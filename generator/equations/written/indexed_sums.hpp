@@ -3,7 +3,7 @@
 /// sum_i m[i] v[i]^2/2; also over pairs, without one value of the index, and inside other terms.
 #pragma once
 
-#include "equations/written/index_pattern.hpp"
+#include "equations/written/index_shape.hpp"
 #include "equations/written/term_keys.hpp"
 
 namespace lagen {
@@ -39,7 +39,7 @@ class SumWriting {
         Keys keys;
         std::size_t members = 0;
     };
-    /// What a pattern is at a value of its letter.
+    /// A pattern is one of these at a value of its letter.
     enum class Instance { term, zero, other, no_value, no_names };
 
     std::vector<IndexPattern> patterns_of(const std::vector<Item>& items, bool from_one);

@@ -2,7 +2,6 @@
 #include "equations/written/vector_equations.hpp"
 
 #include "equations/written/equation_tree.hpp"
-#include "equations/written/hidden_roots.hpp"
 #include "equations/written/vector_terms.hpp"
 #include "symbolic/shortest_form.hpp"
 
@@ -44,12 +43,38 @@ Tree times(const Tree& coefficient, const VectorTerm& term)
     return multiply(factors);
 }
 
-/// Of a rational number.
+/// The tree is that of a rational number.
 Rational value_of(const Tree& tree)
 {
     return tree->kind == TreeKind::negate   ? Rational(-value_of(tree->arguments[0]))
            : tree->kind == TreeKind::divide ? Rational(value_of(tree->arguments[0]) / value_of(tree->arguments[1]))
                                             : tree->number;
+}
+
+/// Roots of sums and sums that divide, by names: expanding a product leaves what is below them as it is, (x - y)^2.
+class HiddenRoots : public GiNaC::map_function {
+  public:
+    HiddenRoots(SymbolTable& symbols, const Order& order) : symbols_(symbols), order_(order) {}
+
+    GiNaC::ex hidden(const GiNaC::ex& expression) { return (*this)(expression); }
+    [[nodiscard]] GiNaC::ex shown(const GiNaC::ex& expression) const { return expression.subs(values_); }
+
+    GiNaC::ex operator()(const GiNaC::ex& part) override;
+
+  private:
+    SymbolTable& symbols_;
+    const Order& order_;
+    GiNaC::exmap values_;
+};
+
+GiNaC::ex HiddenRoots::operator()(const GiNaC::ex& part)
+{
+    const bool root = GiNaC::is_a<GiNaC::power>(part) && GiNaC::is_a<GiNaC::add>(part.op(0)) &&
+                      !part.op(1).info(GiNaC::info_flags::posint);
+    if (!root) return part.map(*this);
+    const GiNaC::ex name = symbols_.symbol("(" + to_text(from_ginac(part, symbols_, order_)) + ")");
+    values_[name] = part;
+    return name;
 }
 
 /// A value by its scalar factors, each with the polynomials in entries that it multiplies.
@@ -87,13 +112,13 @@ class VectorWriting {
         return any ? result : std::vector<Equation>();
     }
 
-    /// Whether a name stands for a vector and for a diagonal matrix at once.
+    /// True where a name stands for a vector and for a diagonal matrix at once.
     [[nodiscard]] bool is_ambiguous() const
     {
         return std::ranges::any_of(diagonals_, [&](const std::string& each) { return used_.contains(each); });
     }
 
-    /// What names of the written equations stand for.
+    /// The values of names of the written equations.
     [[nodiscard]] std::vector<VectorText> vectors() const
     {
         std::vector<VectorText> result;

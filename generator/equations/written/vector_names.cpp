@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "equations/written/vector_names.hpp"
+/// Vectors and matrices among the names.
+#include "equations/written/vector_terms.hpp"
 
 #include <algorithm>
 #include <set>
@@ -19,7 +20,7 @@ std::string without_numbers(const std::string& first, const std::string& second)
     return {};
 }
 
-/// Whether a name would be taken for a basis vector: e, e3, e_3, e[3].
+/// True where a name would be taken for a basis vector: e, e3, e_3, e[3].
 bool looks_like_basis(const std::string& name)
 {
     return name == "e" || (name.starts_with('e') && name.find_first_of("_[0123456789") == 1);

@@ -94,7 +94,7 @@ bool occurs(const Entries& entries, const std::set<std::string>& used)
     return std::ranges::any_of(entries, [&](const std::string& entry) { return used.contains(entry); });
 }
 
-/// Whether all monomials of the term occur in what it is to be part of.
+/// True where all monomials of the term occur in what it is to be part of.
 bool fits(const VectorTerm& term, const Polynomials& whole)
 {
     for (std::size_t i = 0; i < whole.size(); ++i)

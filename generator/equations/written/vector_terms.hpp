@@ -4,13 +4,42 @@
 /// what is found is equal.
 #pragma once
 
-#include "equations/written/vector_names.hpp"
+#include "model/model.hpp"
+#include "typeset/equation_set.hpp"
 
+#include <array>
 #include <map>
 #include <optional>
 #include <set>
 
 namespace lagen {
+
+// Vectors of three and matrices of three by three among the declared names: families, and names with the numbers 1
+// to 3.
+
+struct VectorName {
+    std::string name;
+    std::array<std::string, 3> entries; ///< empty where a definition's entry is 0
+    std::string latex = {};             ///< made of that of the entries; empty: from the name
+    bool family = false;                ///< its entries are name[1] to name[3], or those of a row
+};
+
+struct MatrixName {
+    std::string name;                   ///< "Jᵀ" of the transposed family
+    std::array<std::string, 9> entries; ///< by rows; empty where an entry is 0
+    bool diagonal = false;              ///< of three numbered parameters
+};
+
+struct VectorNames {
+    std::vector<VectorName> vectors;
+    std::vector<MatrixName> matrices;
+    std::array<std::string, 3> basis = {}; ///< free names of e_1 to e_3; empty where a vector of the model is called e
+};
+
+/// The vectors and matrices among the symbols of `equations` and of what these stand for. Names with numbers are a
+/// vector where the name without them is free: g1, g2, g3 beside a parameter g are none. Three numbered parameters of
+/// `model` may also be a diagonal matrix.
+[[nodiscard]] VectorNames vector_names(const EquationSet& equations, const Model& model);
 
 using Monomial = std::vector<std::string>;       ///< entries, sorted, each as often as its power
 using Polynomial = std::map<Monomial, Rational>; ///< none of the coefficients is 0
@@ -32,7 +61,7 @@ struct VectorTerm {
 
 class VectorTerms {
   public:
-    /// What a sum of `value` may be made of: of the vectors and matrices whose entries occur in it.
+    /// A sum of `value` may be made of these: of the vectors and matrices whose entries occur in it.
     VectorTerms(const VectorNames& names, const Polynomials& value);
 
     /// The vectors v and the products M v of this one alone: what the left side of an equation may be made of.
