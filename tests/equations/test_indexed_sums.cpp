@@ -137,7 +137,9 @@ TEST_CASE("the equations of a long chain are those of short ones")
     const std::optional<EquationSet> six = of_every_size(chain_of(6), asked);
     REQUIRE(six);
     CHECK(asked == std::vector<long>{4, 1, 2, 3});
-    EquationSet both = of_text(chain_of(6)); // by components, derived with six links
+    const Model model = read_model_text("test.toml", chain_of(6));
+    const System system = elaborate(model);
+    EquationSet both = derive("lagrange", model, system, verify(system)); // by components, with six links
     for (auto* blocks : {&both.given, &both.blocks})
         for (EquationBlock& block : *blocks) {
             const auto& others = blocks == &both.given ? six->given : six->blocks;
