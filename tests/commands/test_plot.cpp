@@ -217,6 +217,13 @@ TEST_CASE("a picture is dense whatever the rows are, and the same twice", "[run]
                Catch::StartsWith("{\"model\""));
 }
 
+TEST_CASE("a graph that hardly leaves its start shows its change", "[run]")
+{
+    const std::string picture = fresh_folder() + "/a.svg";
+    CHECK(call({"run", "rotor.toml", "--plot", picture, "--curves", "t:energy"}).code == 0);
+    CHECK_THAT(read_text(picture), Catch::Contains(">change of energy<"));
+}
+
 TEST_CASE("the points of a discrete motion and of a section are drawn one by one", "[run]")
 {
     const std::string folder = fresh_folder();

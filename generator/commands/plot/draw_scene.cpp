@@ -207,6 +207,7 @@ Panel panel_of(const std::vector<PlottedRun>& runs, const PlannedPanel& planned,
         std::vector<Symbol>& row = symbols.emplace_back();
         for (const NamedTree& coordinate : curve.coordinates) {
             row.push_back(symbol_of(first.model, coordinate.name));
+            if (curve.coordinates.size() > 2) row.back().text.clear(); // there is no room at the axes of space
             along[row.size() - 1].push_back(row.back());
         }
     }

@@ -190,7 +190,8 @@ class PanelScript {
     void set_labels()
     {
         for (std::size_t i = 0; i < panel_.labels.size(); ++i)
-            text_ += fmt::format("set {}label {}\n", "xyz"[i], gnuplot_text(panel_.labels[i]));
+            text_ += fmt::format("set {}label {}{}\n", "xyz"[i], gnuplot_text(panel_.labels[i]),
+                                 i == 2 ? " rotate by 90" : "");
     }
 
     void set_plane(bool abscissa)
@@ -233,8 +234,8 @@ class PanelScript {
             text_ += fmt::format("set arrow from {} to {} linecolor rgb '#555555'\nset label {} at {} center\n",
                                  at(radius_), at(tip), gnuplot_text(panel_.labels[i]), at(1.42 * radius_));
         }
-        text_ += fmt::format("set label {} at screen 0.5, graph 0 center\n",
-                             gnuplot_text(fmt::format("sphere of radius {:.6g}", radius_)));
+        text_ += fmt::format("set label {} at 0,0,{} center\n",
+                             gnuplot_text(fmt::format("sphere of radius {:.6g}", radius_)), -1.5 * radius_);
         plots_.push_back(
             fmt::format("{0}*cos(u)*cos(v),{0}*sin(u)*cos(v),{0}*sin(v) with {1} notitle", radius_, grid_style));
     }
