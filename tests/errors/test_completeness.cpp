@@ -78,6 +78,8 @@ constexpr std::array guards{
 constexpr std::array without_model{
     "it could not be shown that the sections of the subbundle are linearly independent somewhere",
     "not shown to be a combination of the generators",
+    "the arrow of a step cannot be solved for; let L depend on the arrow in every direction", // of kernels too long to
+                                                                                              // read
 };
 
 /// Messages of a machine in trouble, or with paths of the machine in them.
