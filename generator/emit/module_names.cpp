@@ -114,7 +114,7 @@ constexpr std::string_view members[] = {
 
 bool is_member(std::string_view name)
 {
-    if (name.ends_with("dimension")) return true;
+    if (name.ends_with("dimension") || name.starts_with("group_generators_")) return true;
     for (const std::string_view suffix : {"_names", "_rows", "_columns", "_values", "_sums"})
         if (name.ends_with(suffix)) name.remove_suffix(suffix.size());
     return std::ranges::count(members, name) + std::ranges::count(class_scope, name) > 0;

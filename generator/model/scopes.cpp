@@ -64,7 +64,7 @@ void require_sound_definitions(const ModelReader& reader)
 {
     for (const Definition& definition : reader.model.definitions) {
         if (definition.parameters.empty()) {
-            (void)reader.arrows.close_array(name(definition.name, definition.where));
+            (void)reader.arrows.close_array(name(definition.name, definition.where), true);
         } else {
             BodyNames(reader, definition).check(definition.body);
         }

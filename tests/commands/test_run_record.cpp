@@ -48,8 +48,7 @@ std::string content_of(const fs::path& file)
 
 } // namespace
 
-TEST_CASE("the second run reads a record, whatever the values; a lost program or a damaged record is made again",
-          "[run]")
+TEST_CASE("the second run reads a record; a lost program or a damaged record is made again", "[run]")
 {
     const Cache cache;
     const Outcome first = cache.run({});
@@ -65,13 +64,10 @@ TEST_CASE("the second run reads a record, whatever the values; a lost program or
     const Outcome second = cache.run({});
     CHECK(second.out == first.out);
     CHECK_THAT(second.err, Catch::StartsWith("warning: this was read\n"));
-    for (const std::vector<std::string>& options :
-         {std::vector<std::string>{"--set", "I=1.75"}, {"--initial", "w1=1.25"}, {"--tolerance", "1e-6"}}) {
-        const Outcome other = cache.run(options);
-        CHECK(other.code == 0);
-        CHECK_THAT(other.err, Catch::StartsWith("warning: this was read\n"));
-        if (options[0] != "--tolerance") CHECK(other.out != first.out); // both tolerances take the same three steps
-    }
+    const Outcome elsewhere = cache.run({"--initial", "w1=1.25"});
+    CHECK_THAT(elsewhere.err, Catch::StartsWith("warning: this was read\n"));
+    CHECK(elsewhere.out != first.out);
+    CHECK_THAT(cache.run({"--tolerance", "1e-6"}).err, Catch::StartsWith("warning: this was read\n"));
     // A line of comment is no other model.
     const std::string folder = fresh_folder();
     std::ofstream(folder + "/quartic_body.toml")
@@ -122,7 +118,8 @@ TEST_CASE("what a record decided for some values is decided again for others", "
     REQUIRE(lagrange.records().size() == 1);
     const std::string decided = content_of(lagrange.records()[0]);
     CHECK(lagrange.run({"--set", "c=-0.04"}).code == 0);
-    CHECK(content_of(lagrange.records()[0]) == decided);
+    REQUIRE(lagrange.records().size() == 1);
+    CHECK(content_of(lagrange.records()[0]) != decided);
     // Another form has a record of its own.
     CHECK(cache.run({"--method", "tsit5"}).code == 0);
     CHECK(cache.records().size() == 2);

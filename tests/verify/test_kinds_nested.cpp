@@ -79,7 +79,7 @@ TEST_CASE("the base of a prolongation may be declared without what it gains, or 
     CHECK(lines_of(build_algebroid(nested("[base]\ncoordinates = ['x']\n" + of))) == expected);
     CHECK(lines_of(build_algebroid(nested("[base]\ncoordinates = ['x', 'a', 'b']\n" + of))) == expected);
     CHECK(diagnostic_of("[base]\ncoordinates = ['z']\n[algebroid]\nkind = 'prolongation'\nof = 'plane.toml'\n") ==
-          "the number of base coordinates is 1, where [algebroid] gives 4: x, y, u, v | leave [base] coordinates out, "
+          "the number of base coordinates is 1, where [algebroid] needs 4: x, y, u, v | leave [base] coordinates out, "
           "or give "
           "exactly these");
 }

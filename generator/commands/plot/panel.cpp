@@ -231,8 +231,9 @@ class PanelScript {
                 return fmt::format("{},{},{}", i == 0 ? r : 0, i == 1 ? r : 0, i == 2 ? r : 0);
             };
             text_ += range_script("xyz"[i], -tip, tip);
-            text_ += fmt::format("set arrow from {} to {} linecolor rgb '#555555'\nset label {} at {} center\n",
-                                 at(radius_), at(tip), gnuplot_text(panel_.labels[i]), at(1.42 * radius_));
+            text_ +=
+                fmt::format("set arrow from {} to {} nohead linecolor rgb '#555555'\nset label {} at {} center\n",
+                            at(radius_), at(tip), gnuplot_text(panel_.labels[i]), at((i < 2 ? 1.65 : 1.42) * radius_));
         }
         text_ += fmt::format("set label {} at 0,0,{} center\n",
                              gnuplot_text(fmt::format("sphere of radius {:.6g}", radius_)), -1.5 * radius_);
