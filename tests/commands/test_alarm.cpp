@@ -53,5 +53,5 @@ TEST_CASE("an internal error inside a decision ends the command with exit code 5
                 CHECK(outcome.out.empty());
                 CHECK_THAT(outcome.err, Catch::StartsWith("internal error: the alarm of a test\n"));
             }
-    CHECK(alarms > 60);
+    CHECK(alarms > 50);
 }
