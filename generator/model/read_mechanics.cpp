@@ -45,7 +45,7 @@ std::vector<ControlBound> read_bounds(const ModelReader& reader, const Item& blo
         const ResolvedKey key = require_key(controls, item.key(), block.title(), "control", &reader.model.scope);
         const std::string what = fmt::format("a bound of '{}'", key.name);
         std::vector<Tree> ends[2];
-        for (const std::size_t end : {0, 1}) {
+        for (const std::size_t end : {0U, 1U}) {
             const TomlValue& value = item.value().items[end];
             ends[end] = is_open(value, end == 0)
                             ? std::vector<Tree>(key.indices.size())

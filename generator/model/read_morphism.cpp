@@ -5,6 +5,7 @@
 
 #include "expression/find_part.hpp"
 #include "model/algebroid_draft.hpp"
+#include "model/complaints.hpp"
 #include "model/families.hpp"
 #include "model/read_file.hpp"
 #include "model/read_values.hpp"

@@ -44,18 +44,35 @@ struct SchemaRow {
     const char* hint = "";    ///< how it is written
     long least = 0, most = 0; ///< of a count
 
-    constexpr SchemaRow one_of(const char* words_) const { return with(&SchemaRow::words, words_); }
-    constexpr SchemaRow needing(const char* keys) const { return with(&SchemaRow::needs, keys); }
-    constexpr SchemaRow like(const char* example) const { return with(&SchemaRow::hint, example); }
-    constexpr SchemaRow any_function() const { return with(&SchemaRow::nonsmooth, true); }
-    constexpr SchemaRow within(long a, long b) const { return with(&SchemaRow::least, a).with(&SchemaRow::most, b); }
-
-  private:
-    template <class Member, class Value>
-    constexpr SchemaRow with(Member SchemaRow::*member, Value value) const
+    constexpr SchemaRow one_of(const char* all) const
     {
         SchemaRow row = *this;
-        row.*member = value;
+        row.words = all;
+        return row;
+    }
+    constexpr SchemaRow needing(const char* keys) const
+    {
+        SchemaRow row = *this;
+        row.needs = keys;
+        return row;
+    }
+    constexpr SchemaRow like(const char* example) const
+    {
+        SchemaRow row = *this;
+        row.hint = example;
+        return row;
+    }
+    constexpr SchemaRow any_function() const
+    {
+        SchemaRow row = *this;
+        row.nonsmooth = true;
+        return row;
+    }
+    constexpr SchemaRow within(long a, long b) const
+    {
+        SchemaRow row = *this;
+        row.least = a;
+        row.most = b;
         return row;
     }
 };
