@@ -75,7 +75,7 @@ void keep_between(const SampledCurve& line, std::size_t first, std::size_t last,
 /// True for the points of a piece that are drawn; `line` is the piece in units of the box.
 std::vector<bool> seen_points(const SampledCurve& line, Pen pen)
 {
-    constexpr double seen = 1.0 / 4000;
+    const double seen = pen == Pen::line ? 1.0 / 4000 : 1.0 / 400; // marks are broader
     constexpr std::size_t stretch = 500; // points at a time: a turbulent curve costs their square at most
     std::vector<bool> kept(line.size(), false);
     if (pen != Pen::line) {
