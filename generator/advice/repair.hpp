@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// What would mend a refuted algebroid: one sign, the order of one pair, or the one component of a bracket that the
-/// anchor asks for, with which every equation is proved again.
+/// The changes that would mend a refuted algebroid: one sign, the order of one pair, or the one component of a bracket
+/// that the anchor asks for, with which every equation is proved again.
 #pragma once
 
 #include "algebroid/structure_equations.hpp"

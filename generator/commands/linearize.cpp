@@ -25,7 +25,7 @@ namespace lagen {
 
 namespace {
 
-// What `lagen linearize` found, in text and in JSON.
+// The findings of `lagen linearize`, in text and in JSON.
 
 struct LinearReport {
     std::string model, scene, form;

@@ -2,7 +2,9 @@
 #include "elaborate/make_frame.hpp"
 
 #include "elaborate/bind_parameters.hpp"
+#include "expression/linear_algebra.hpp"
 #include "graph/calculus/differentiate.hpp"
+#include "graph/core/evaluate.hpp"
 #include "proof/enclosure.hpp"
 #include "proof/rank.hpp"
 #include "text/comma_list.hpp"
@@ -10,45 +12,115 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 
 namespace lagen {
 namespace {
 
-constexpr std::size_t most_points = 4096; ///< at which functions are looked at
-constexpr std::array<long, 4> tried_values{1, -1, 2, -2};
+// Points where several functions vanish at once, as on the singular set of a level set.
+// Levenberg and Marquardt's method from a fixed list of starts; what it comes near to is rounded to small fractions,
+// and only what vanishes there exactly counts.
 
-/// A point where all of `functions` are 0 and the domain holds, with its values of `x`; parameters are `fixed`. Points
-/// with whole coordinates are tried, those with few that are not 0 first; where they show none there may be one all the
-/// same.
-std::optional<NamedPoint> common_zero(const Graph& graph, const std::vector<NodeId>& functions,
-                                      const std::vector<NodeId>& x, const std::vector<NodeId>& domain,
-                                      const std::map<NodeId, Rational>& fixed)
+constexpr int most_steps = 60;
+constexpr std::size_t random_starts = 12;
+constexpr long largest_denominator = 24;
+constexpr double rounding = 1e-5; ///< how near a fraction must be: double zeros are found to half the digits
+
+std::optional<Rational> near_fraction(double value)
 {
-    const proof::Evaluation zeros(graph, functions), conditions(graph, domain);
-    const auto all_are = [](const std::optional<std::vector<Rational>>& values, int wanted) {
-        return values && std::ranges::all_of(*values, [&](const Rational& value) { return value == wanted; });
-    };
-    std::size_t tried = 0;
-    for (std::size_t count = 0; count <= x.size(); ++count) {
-        Places places = first_places(count); // of coordinates that are not 0
-        do {
-            for (std::vector<std::size_t> digits(count, 0);;) {
-                if (++tried > most_points) return std::nullopt;
-                proof::ExactInputs inputs = fixed;
-                for (const NodeId input : x) inputs[input] = 0;
-                for (std::size_t k = 0; k < count; ++k) inputs[x[places[k]]] = tried_values.at(digits[k]);
-                if (all_are(zeros.exactly(inputs), 0) && all_are(conditions.exactly(inputs), 1)) {
-                    NamedPoint point;
-                    for (const NodeId input : x) point.emplace_back(graph.input_name(input), inputs.at(input));
-                    return point;
-                }
-                std::size_t k = 0;
-                while (k < count && ++digits[k] == tried_values.size()) digits[k++] = 0;
-                if (k == count) break;
-            }
-        } while (next_places(places, x.size()));
+    for (long denominator = 1; denominator <= largest_denominator; ++denominator) {
+        const double scaled = value * static_cast<double>(denominator);
+        if (!(std::abs(scaled) < 1e6) || std::abs(scaled - std::round(scaled)) > rounding) continue;
+        Rational result(std::lround(scaled), denominator);
+        result.canonicalize();
+        return result;
     }
+    return std::nullopt;
+}
+
+class ZeroSearch {
+  public:
+    ZeroSearch(Graph& graph, const std::vector<NodeId>& functions, const std::vector<NodeId>& x,
+               const std::vector<NodeId>& domain, const std::map<NodeId, Rational>& fixed)
+        : graph_(graph), functions_(functions), x_(x), domain_(domain), fixed_(fixed), nodes_(functions)
+    {
+        for (const NodeId function : functions)
+            for (const NodeId slope : gradient(graph, function, x)) nodes_.push_back(slope);
+    }
+
+    [[nodiscard]] std::optional<NamedPoint> from(std::vector<double> point) const
+    {
+        for (int k = 0; k < most_steps && step(point); ++k) {
+        }
+        proof::ExactInputs inputs = fixed_;
+        NamedPoint named;
+        for (std::size_t i = 0; i < x_.size(); ++i) {
+            const std::optional<Rational> value = near_fraction(point[i]);
+            if (!value) return std::nullopt;
+            inputs[x_[i]] = *value;
+            named.emplace_back(graph_.input_name(x_[i]), *value);
+        }
+        const auto all_are = [&](const std::vector<NodeId>& nodes, int wanted) {
+            const auto values = proof::Evaluation(graph_, nodes).exactly(inputs);
+            return values && std::ranges::all_of(*values, [&](const Rational& value) { return value == wanted; });
+        };
+        return all_are(functions_, 0) && all_are(domain_, 1) ? std::optional(named) : std::nullopt;
+    }
+
+  private:
+    /// x -= (J^T J + |F| 1)^-1 J^T F; false where it is a zero, or not defined.
+    bool step(std::vector<double>& point) const
+    {
+        std::map<std::string, double> inputs;
+        for (const auto& [input, value] : fixed_) inputs[graph_.input_name(input)] = value.get_d();
+        for (std::size_t i = 0; i < x_.size(); ++i) inputs[graph_.input_name(x_[i])] = point[i];
+        const std::vector<double> values = evaluate<double>(graph_, nodes_, inputs);
+        const std::size_t n = x_.size(), count = functions_.size();
+        std::vector<double> normal(n * n, 0), right(n, 0);
+        double size = 0;
+        for (std::size_t k = 0; k < count; ++k) {
+            const double* slopes = &values[count + k * n];
+            size += std::abs(values[k]);
+            for (std::size_t i = 0; i < n; ++i) {
+                right[i] += slopes[i] * values[k];
+                for (std::size_t j = 0; j < n; ++j) normal[i * n + j] += slopes[i] * slopes[j];
+            }
+        }
+        if (!std::isfinite(size) || size == 0) return false;
+        for (std::size_t i = 0; i < n; ++i) normal[i * n + i] += std::min(size, 1.0);
+        const std::vector<double> move = substitute(factorise(std::move(normal), n), right);
+        for (std::size_t i = 0; i < n; ++i) point[i] -= move[i];
+        return std::ranges::all_of(point, [](double value) { return std::isfinite(value); });
+    }
+
+    Graph& graph_;
+    const std::vector<NodeId>&functions_, &x_, &domain_;
+    const std::map<NodeId, Rational>& fixed_;
+    std::vector<NodeId> nodes_; ///< the functions, then their gradients by rows
+};
+
+/// An exact point with small denominators where all of `functions` are 0 and the domain holds, with its values of `x`;
+/// parameters are `fixed`. Nothing where the search finds none: then there may be one all the same.
+std::optional<NamedPoint> common_zero(Graph& graph, const std::vector<NodeId>& functions, const std::vector<NodeId>& x,
+                                      const std::vector<NodeId>& domain, const std::map<NodeId, Rational>& fixed)
+{
+    const ZeroSearch search(graph, functions, x, domain, fixed);
+    std::vector<std::vector<double>> starts{std::vector<double>(x.size(), 0)};
+    for (std::size_t i = 0; i < x.size(); ++i)
+        for (const double value : {1.25, -1.25}) {
+            starts.emplace_back(x.size(), 0);
+            starts.back()[i] = value;
+        }
+    long seed = 7919;
+    for (std::size_t k = 0; k < random_starts; ++k) {
+        starts.emplace_back();
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            seed = (seed * 48271) % 2147483647; // Lehmer's generator
+            starts.back().push_back(static_cast<double>(seed % 4001) / 1000 - 2);
+        }
+    }
+    for (const std::vector<double>& start : starts)
+        if (auto point = search.from(start)) return point;
     return std::nullopt;
 }
 

@@ -108,6 +108,18 @@ TEST_CASE("of a symmetric matrix the entries count once, and a chart of the rota
                       Catch::Contains("4*R[2,1]*(R[1,2]*R[2,1] - R[1,1]*R[2,2]) (keeping R[1,1])"));
 }
 
+TEST_CASE("a level set with a singular point is refused by that point, wherever it lies")
+{
+    const auto refuses = [](const std::string& constraint, const std::string& point) {
+        CHECK_THROWS_WITH(model_of(base("['x', 'y', 'z']", "['" + constraint + "']") + fibre("['u', 'v']") + level_set),
+                          Catch::Contains("the level set is singular at " + point +
+                                          ": the gradient of its constraint is zero there"));
+    };
+    refuses("(x - 1/2)^2 - y^2", "x = 1/2, y = 0, z = 0");
+    refuses("(3*x - 1)^2 + y^2 - z^2", "x = 1/3, y = 0, z = 0");
+    refuses("(x - 7)^3 - y^2", "x = 7, y = 0, z = 0");
+}
+
 TEST_CASE("where constraints are not triangular, what holds around the level set is proved, and nothing is refuted")
 {
     const ModelReport verified = verified_text(linkage);

@@ -107,7 +107,7 @@ std::array<ReferenceRun, 2> run_references(const ChartProblem& problem, const st
 
 constexpr std::size_t even_samples = 21;
 
-/// Of the scene, its events that do not end it apart, and what it says of methods, rows and columns.
+/// The scene without its events that do not end it, and without its methods, rows and columns.
 Scene bare_scene(const Scene& scene)
 {
     Scene bare = scene;

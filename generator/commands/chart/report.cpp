@@ -196,7 +196,7 @@ std::string style_of(const Curve& curve, std::size_t k)
                        curve.leads ? 0.55 : 0.45);
 }
 
-/// What is charted over what, and the decades of both axes.
+/// One quantity charted over another, and the decades of both axes.
 struct ChartPanel {
     std::string x_label, y_label;
     Measure x, y;                                     ///< x of points with an error
@@ -229,7 +229,7 @@ double calls_shown(const ChartPoint& point)
     return static_cast<double>(std::max<std::size_t>(point.rhs_calls, 1));
 }
 
-/// Of the invariant `name`; what is not known or not finite counts as the worst.
+/// The drift of the invariant `name`; a drift that is not known or not finite counts as the worst.
 Measure drift_shown(const std::string& name)
 {
     return [name](const ChartPoint& point) {

@@ -115,7 +115,7 @@ std::string block(const std::string& name, const std::string& lines)
     return fmt::format("${} << LAGEN_END\n{}LAGEN_END\n", name, lines);
 }
 
-/// What the black line is.
+/// The name of the black line.
 const char* limit_name(const StabilityChart& chart)
 {
     const auto meets_fold = [](const ChartedMethod& method) {

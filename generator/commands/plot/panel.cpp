@@ -75,14 +75,15 @@ void keep_between(const SampledCurve& line, std::size_t first, std::size_t last,
 /// True for the points of a piece that are drawn; `line` is the piece in units of the box.
 std::vector<bool> seen_points(const SampledCurve& line, Pen pen)
 {
-    const double seen = pen == Pen::line ? 1.0 / 4000 : 1.0 / 400; // marks are broader
+    constexpr double seen = 1.0 / 4000, seen_of_marks = 1.0 / 400; // marks are broader than lines
     constexpr std::size_t stretch = 500; // points at a time: a turbulent curve costs their square at most
+    if (pen == Pen::steps) return std::vector<bool>(line.size(), true);
     std::vector<bool> kept(line.size(), false);
-    if (pen != Pen::line) {
+    if (pen == Pen::points) {
         std::set<PlotPoint> cells;
         for (std::size_t k = 0; k < line.size(); ++k) {
             PlotPoint cell = line[k];
-            for (double& each : cell) each = std::round(each / seen);
+            for (double& each : cell) each = std::round(each / seen_of_marks);
             kept[k] = cells.insert(cell).second;
         }
         return kept;

@@ -38,10 +38,11 @@ struct PlotBox {
 [[nodiscard]] PlotBox box_of(const std::vector<SampledCurve>& curves);
 
 /// The pieces of a curve between its gaps, with no more points than can be seen: of a line its ends and as few others
-/// as keep it within 1/4000 of the extents of `box` [Douglas-Peucker 1973], of points one in each cell of that size.
+/// as keep it within 1/4000 of the extents of `box` [Douglas-Peucker 1973], of points one in each cell of 1/400, of
+/// steps all.
 [[nodiscard]] std::vector<SampledCurve> seen_pieces(const SampledCurve& curve, const PlotBox& box, Pen pen);
 
-/// What gnuplot is told. Curves in the plane that are no functions of t have a dot where they begin, curves in space
+/// The script for gnuplot. Curves in the plane that are no functions of t have a dot where they begin, curves in space
 /// are seen from 35 degrees of azimuth and 25 of elevation. On a sphere around the origin what lies on the back is
 /// pale, and the view is from another octant where the curves would lie there; others stand in a box with their shadow
 /// on its floor.

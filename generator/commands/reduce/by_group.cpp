@@ -37,7 +37,7 @@ namespace {
 // slice fixes and velocities that the group moves become definitions, with the values that they have on the slice, so
 // that what is invariant stands as it did; what is not is left out.
 
-/// What a reduction by a group is made of.
+/// The parts of a reduction by a group.
 struct GroupReduction {
     const Model& model;
     const System& system;
