@@ -3,7 +3,7 @@
 /// that the anchor asks for, with which every equation is proved again.
 #pragma once
 
-#include "algebroid/structure_equations.hpp"
+#include "geometry/structure_equations.hpp"
 #include "mechanics/system.hpp"
 #include "verify/judge.hpp"
 

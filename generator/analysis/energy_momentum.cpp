@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "analysis/energy_momentum.hpp"
 
-#include "algebra/orthonormal_span.hpp"
-#include "algebra/rational_near.hpp"
+#include "geometry/orthonormal_span.hpp"
+#include "geometry/rational_near.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "proof/rational_matrix.hpp"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "analysis/equilibrium.hpp"
 
-#include "algebra/orthonormal_span.hpp"
 #include "analysis/augmented_energy.hpp"
 #include "analysis/leaf.hpp"
+#include "geometry/orthonormal_span.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/simplify/simplify.hpp"
 #include "proof/least_squares.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "analysis/find_invariants.hpp"
 
-#include "algebra/orthonormal_span.hpp"
-#include "algebra/rational_near.hpp"
 #include "analysis/generic_points.hpp"
+#include "geometry/orthonormal_span.hpp"
+#include "geometry/rational_near.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/evaluate.hpp"
 #include "graph/core/operators.hpp"

@@ -2,7 +2,7 @@
 /// Ranks of differentials and of vector fields, at points drawn at random where all of a system is defined.
 #pragma once
 
-#include "algebra/orthonormal_span.hpp"
+#include "geometry/orthonormal_span.hpp"
 #include "verify/proof_setting.hpp"
 
 #include <map>

@@ -7,7 +7,7 @@
 /// matrix with R' = R hat(w), |x|^2 of a vector with x' = x cross w). [Sussmann 1973]
 #pragma once
 
-#include "algebra/orthonormal_span.hpp"
+#include "geometry/orthonormal_span.hpp"
 #include "mechanics/system.hpp"
 #include "proof/least_squares.hpp"
 

@@ -2,8 +2,8 @@
 /// The algebroid block of a model as sparse anchor and structure functions.
 #include "elaborate/build_algebroid.hpp"
 
-#include "algebra/named_algebra.hpp"
 #include "elaborate/build_workspace.hpp"
+#include "geometry/named_algebra.hpp"
 #include "model/complaints.hpp"
 #include "text/comma_list.hpp"
 

@@ -2,7 +2,7 @@
 /// rho and C of the model's algebroid block, as a person would write them, and on a graph.
 #pragma once
 
-#include "algebroid/algebroid.hpp"
+#include "geometry/algebroid.hpp"
 #include "graph/core/lower.hpp"
 #include "mechanics/written_algebroid.hpp"
 #include "model/model.hpp"

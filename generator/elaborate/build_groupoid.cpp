@@ -4,9 +4,9 @@
 
 #include "elaborate/bind_parameters.hpp"
 #include "elaborate/build_workspace.hpp"
+#include "geometry/algebroid_of.hpp"
+#include "geometry/generator_span.hpp"
 #include "graph/core/evaluate.hpp"
-#include "groupoid/algebroid_of.hpp"
-#include "groupoid/generator_span.hpp"
 
 #include <fmt/format.h>
 

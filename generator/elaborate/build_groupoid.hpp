@@ -2,8 +2,8 @@
 /// The groupoid of a model on a graph.
 #pragma once
 
+#include "geometry/exponential.hpp"
 #include "graph/core/lower.hpp"
-#include "groupoid/exponential.hpp"
 #include "mechanics/system.hpp"
 #include "model/model.hpp"
 

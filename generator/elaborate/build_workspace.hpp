@@ -3,9 +3,9 @@
 /// the way back to trees that a person can read.
 #pragma once
 
-#include "algebroid/section.hpp"
 #include "elaborate/build_algebroid.hpp"
 #include "expression/linear_algebra.hpp"
+#include "geometry/section.hpp"
 #include "graph/calculus/determinant.hpp"
 #include "proof/decide.hpp"
 #include "proof/normal_form.hpp"

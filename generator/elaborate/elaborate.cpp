@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "elaborate/elaborate.hpp"
 
-#include "algebra/named_algebra.hpp"
 #include "elaborate/bind_parameters.hpp"
 #include "elaborate/build_algebroid.hpp"
 #include "elaborate/build_distribution.hpp"
 #include "elaborate/build_groupoid.hpp"
 #include "elaborate/model_trees.hpp"
 #include "elaborate/require_values.hpp"
+#include "geometry/named_algebra.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/evaluate.hpp"
 #include "mechanics/scheme.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "elaborate/variational_model.hpp"
 
-#include "algebra/named_algebra.hpp"
 #include "elaborate/build_algebroid.hpp"
+#include "geometry/named_algebra.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "model/families.hpp"
 #include "model/form.hpp"

@@ -2,7 +2,7 @@
 /// Statements about forms and sections that are decided component by component.
 #pragma once
 
-#include "algebroid/form.hpp"
+#include "geometry/form.hpp"
 #include "proof/decide.hpp"
 #include "typeset/equation_set.hpp"
 

@@ -2,9 +2,9 @@
 /// The Cartan sections of L in continuous time for a person, with what is decided of them (mechanics/symplectic.hpp).
 #include "equations/derivations.hpp"
 
-#include "algebroid/prolongation.hpp"
 #include "equations/decided_statement.hpp"
 #include "equations/symbolic_model.hpp"
+#include "geometry/prolongation.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/lower.hpp"
 #include "mechanics/symplectic.hpp"

@@ -6,9 +6,9 @@
 /// with the last A at x_next, so that momenta gain no rounding error of that size in a step. Forces make the momenta
 /// F^-L - f^- and F^+L + f^+ (mechanics/scheme.hpp). On pairs where N does not depend on the arrow, F^-L is affine in
 /// it, and a step is explicit.
+#include "geometry/cayley.hpp"
+#include "geometry/generator_span.hpp"
 #include "graph/calculus/differentiate.hpp"
-#include "groupoid/cayley.hpp"
-#include "groupoid/generator_span.hpp"
 #include "kernels/formulation.hpp"
 #include "mechanics/discrete.hpp"
 #include "mechanics/hamilton.hpp"

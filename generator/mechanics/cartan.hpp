@@ -9,7 +9,7 @@
 /// 2001; Marrero-Martin de Diego-Martinez 2006]
 #pragma once
 
-#include "algebroid/form.hpp"
+#include "geometry/form.hpp"
 #include "mechanics/discrete.hpp"
 
 namespace lagen {

@@ -3,7 +3,7 @@
 /// blocks of coupled fibre coordinates.
 #pragma once
 
-#include "algebroid/algebroid.hpp"
+#include "geometry/algebroid.hpp"
 #include "graph/calculus/determinant.hpp"
 
 #include <optional>

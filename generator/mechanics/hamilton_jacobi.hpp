@@ -8,7 +8,7 @@
 /// integral of alpha, S(x(t1)) - S(x(t0)) of alpha = dS: <alpha, sigma> = L(x, sigma) + H o alpha.   [Martinez 2001]
 #pragma once
 
-#include "algebroid/form.hpp"
+#include "geometry/form.hpp"
 #include "mechanics/hamilton.hpp"
 
 namespace lagen {

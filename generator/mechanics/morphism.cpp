@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "mechanics/morphism.hpp"
 
+#include "geometry/generator_span.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/calculus/transplant.hpp"
-#include "groupoid/generator_span.hpp"
 
 namespace lagen {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "mechanics/scheme.hpp"
 
+#include "geometry/cayley.hpp"
+#include "geometry/retraction.hpp"
 #include "graph/calculus/differentiate.hpp"
-#include "groupoid/cayley.hpp"
-#include "groupoid/retraction.hpp"
 
 #include <fmt/format.h>
 

@@ -19,7 +19,7 @@
 /// [Marsden, West 2001; Leok, Shingel 2012; on groups Bou-Rabee, Marsden 2009]
 #pragma once
 
-#include "groupoid/exponential.hpp"
+#include "geometry/exponential.hpp"
 #include "mechanics/quadrature.hpp"
 #include "mechanics/system.hpp"
 

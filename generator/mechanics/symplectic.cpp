@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "mechanics/symplectic.hpp"
 
-#include "algebroid/prolongation.hpp"
+#include "geometry/prolongation.hpp"
 #include "graph/calculus/differentiate.hpp"
 
 namespace lagen {

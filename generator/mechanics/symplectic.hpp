@@ -9,7 +9,7 @@
 /// so that Fdot = {H, F} and {F, G} = -Omega(X_F, X_G).                                          [Martinez 2001]
 #pragma once
 
-#include "algebroid/form.hpp"
+#include "geometry/form.hpp"
 #include "mechanics/lagrange.hpp"
 
 namespace lagen {

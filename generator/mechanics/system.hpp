@@ -9,10 +9,10 @@
 ///   system.lagrangian = ..;
 #pragma once
 
-#include "algebroid/form.hpp"
-#include "algebroid/structure_equations.hpp"
+#include "geometry/form.hpp"
+#include "geometry/groupoid.hpp"
+#include "geometry/structure_equations.hpp"
 #include "graph/core/lower.hpp"
-#include "groupoid/groupoid.hpp"
 #include "mechanics/written_algebroid.hpp"
 
 #include <optional>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// A Lie algebroid as a person writes it: anchor rho^i_a and structure functions C^c_ab as sparse arrays of closed
-/// trees. The same on the graph: algebroid/algebroid.hpp.
+/// trees. The same on the graph: geometry/algebroid.hpp.
 #pragma once
 
-#include "algebroid/construction.hpp"
 #include "expression/symbol.hpp"
+#include "geometry/construction.hpp"
 
 #include <memory>
 

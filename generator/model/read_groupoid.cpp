@@ -4,7 +4,7 @@
 /// groups with g' = g xi, whose entries are first-order states.
 #include "model/algebroid_draft.hpp"
 
-#include "algebra/named_algebra.hpp"
+#include "geometry/named_algebra.hpp"
 #include "model/complaints.hpp"
 #include "model/families.hpp"
 #include "model/read_values.hpp"

@@ -2,7 +2,7 @@
 /// Trees of a scene to numbers, and the conditions on a start.
 #include "scene/evaluate_scene.hpp"
 
-#include "algebra/group_relations.hpp"
+#include "geometry/group_relations.hpp"
 #include "model/carried_states.hpp"
 #include "model/dependency_order.hpp"
 #include "model/families.hpp"

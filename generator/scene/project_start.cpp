@@ -2,8 +2,8 @@
 /// Newton's method for h(x) = 0, c(x) = c(x_0) with steps of least length: dx = -J^T lambda, (J J^T) lambda = h.
 #include "scene/project_start.hpp"
 
-#include "algebra/orthonormal_span.hpp"
 #include "expression/linear_algebra.hpp"
+#include "geometry/orthonormal_span.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/evaluate.hpp"
 #include "graph/core/lower.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/arrow_decider.hpp"
 
+#include "geometry/cayley.hpp"
+#include "geometry/generator_span.hpp"
 #include "graph/calculus/differentiate.hpp"
-#include "groupoid/cayley.hpp"
-#include "groupoid/generator_span.hpp"
 #include "verify/judge.hpp"
 
 #include <algorithm>

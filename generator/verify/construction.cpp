@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/construction.hpp"
 
-#include "algebroid/structure_equations.hpp"
+#include "geometry/structure_equations.hpp"
 #include "proof/almost_everywhere.hpp"
 
 #include <algorithm>

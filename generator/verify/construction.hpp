@@ -2,7 +2,7 @@
 /// Structure equations that hold by construction.
 #pragma once
 
-#include "algebroid/construction.hpp"
+#include "geometry/construction.hpp"
 
 namespace lagen {
 

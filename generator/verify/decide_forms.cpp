@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// What [forms] claims, component by component.
+#include "geometry/algebroid_of.hpp"
 #include "graph/calculus/differentiate.hpp"
-#include "groupoid/algebroid_of.hpp"
 #include "verify/arrow_decider.hpp"
 #include "verify/claims.hpp"
 #include "verify/verify.hpp"

@@ -2,8 +2,8 @@
 /// Sylvester's criterion, part by part or block by block, and the elimination of the fibre coordinates.
 #include "verify/definiteness.hpp"
 
-#include "algebroid/section.hpp"
 #include "expression/linear_algebra.hpp"
+#include "geometry/section.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/operators.hpp"
 #include "mechanics/fibre_hessian.hpp"

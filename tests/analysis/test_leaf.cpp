@@ -2,8 +2,8 @@
 /// Leaves of the base: the functions that are constant on them, and steps that stay on them.
 #include "analysis/leaf.hpp"
 
-#include "algebra/matrix_logarithm.hpp"
 #include "analysis/equilibrium.hpp"
+#include "geometry/matrix_logarithm.hpp"
 #include "graph/core/evaluate.hpp"
 #include "verify/checking.hpp"
 

@@ -3,7 +3,7 @@
 /// rows by steps, and steps that have no solution.
 #include "program.hpp"
 
-#include "groupoid/reference_models.hpp"
+#include "geometry/reference_models.hpp"
 #include "support/json.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Discrete Lagrangians made of L by schemes: the Verlet reference, and measured orders on all kinds of groupoid.
-#include "groupoid/reference_models.hpp"
+#include "geometry/reference_models.hpp"
 #include "scheme_models.hpp"
 
 using namespace lagen::testing;

@@ -3,8 +3,8 @@
 /// proved on all kinds of groupoids, and a wrong side, sign or bracket is refuted.
 #include "equations/derive.hpp"
 #include "equations/printed_value.hpp"
+#include "geometry/reference_models.hpp"
 #include "graph/core/evaluate.hpp"
-#include "groupoid/reference_models.hpp"
 #include "mechanics/cartan.hpp"
 #include "model/read_model.hpp"
 #include "support/model_equations.hpp"

@@ -2,8 +2,8 @@
 /// The discrete equations that a person reads have the values of those on the graph, and the form of the textbooks.
 #include "equations/derive.hpp"
 #include "equations/printed_value.hpp"
+#include "geometry/reference_models.hpp"
 #include "graph/core/evaluate.hpp"
-#include "groupoid/reference_models.hpp"
 #include "mechanics/discrete.hpp"
 #include "model/families.hpp"
 #include "support/model_equations.hpp"

@@ -2,8 +2,8 @@
 /// Exact flows of parts of H: each is a flow, their fields add up to Hamilton's equations, and each is a Poisson map.
 #include "models.hpp"
 
-#include "algebroid/algebroid.hpp"
 #include "emit/print_header.hpp"
+#include "geometry/algebroid.hpp"
 #include "support/tolerances.hpp"
 
 using namespace lagen;

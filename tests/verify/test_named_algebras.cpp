@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Named Lie algebras against their table of brackets and against the Jacobi identity.
-#include "algebra/named_algebra.hpp"
+#include "geometry/named_algebra.hpp"
 
 #include <catch2/catch.hpp>
 

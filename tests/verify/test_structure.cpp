@@ -3,7 +3,7 @@
 #include "verify/algebroid_texts.hpp"
 #include "verify/checking.hpp"
 
-#include "algebroid/structure_equations.hpp"
+#include "geometry/structure_equations.hpp"
 #include "graph/core/evaluate.hpp"
 #include "support/tolerances.hpp"
 #include "symbolic/ginac_door.hpp"

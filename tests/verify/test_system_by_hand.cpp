@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Systems that were not read from a file.
-#include "algebra/named_algebra.hpp"
-#include "algebroid/algebroid.hpp"
+#include "geometry/algebroid.hpp"
+#include "geometry/named_algebra.hpp"
 #include "mechanics/lagrange.hpp"
 #include "mechanics/pontryagin.hpp"
 #include "verify/verify.hpp"

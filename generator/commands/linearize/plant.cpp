@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/linearize/plant.hpp"
 
-#include "algebra/rational_near.hpp"
 #include "analysis/leaf.hpp"
 #include "commands/scene/start_state.hpp"
+#include "geometry/rational_near.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/evaluate.hpp"
 #include "graph/core/lower.hpp"

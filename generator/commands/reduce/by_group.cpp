@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/reduce/by_group.hpp"
 
-#include "algebra/named_algebra.hpp"
 #include "commands/line/options.hpp"
 #include "commands/reduce/reduced_document.hpp"
 #include "equations/symbolic_model.hpp"
 #include "expression/parse.hpp"
 #include "expression/rewrite.hpp"
+#include "geometry/named_algebra.hpp"
 #include "graph/calculus/determinant.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/calculus/places.hpp"
