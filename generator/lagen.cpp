@@ -36,6 +36,7 @@ constexpr std::array commands{
     CommandEntry{"chart", "chart what accuracy costs by every method", run_chart, true},
     CommandEntry{"reduce", "prove that a morphism projects the equations of motion; list cyclic coordinates",
                  run_reduce},
+    CommandEntry{"explain", "find the least model of a scene, and say what is left out and why", run_explain},
     CommandEntry{"solve", "find relative equilibria, with what is proved of their stability", run_solve},
     CommandEntry{"linearize", "linearise at an equilibrium: eigenvalues, controllability, the gain of least cost",
                  run_linearize},

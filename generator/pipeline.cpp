@@ -155,6 +155,13 @@ CheckedModel read(const std::string& path, const std::vector<Setting>& settings,
     return checked;
 }
 
+CheckedModel read_text(const std::string& name, std::string text)
+{
+    CheckedModel checked;
+    checked.model = read_model_text(name, std::move(text), {}, choosers());
+    return checked;
+}
+
 std::vector<std::string> require_unrefuted(const char* noun, const std::string& name, const std::string& file,
                                            const StructureReport& structure, bool unchecked)
 {

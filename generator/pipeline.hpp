@@ -30,6 +30,8 @@ struct CheckedModel {
 
 /// The two halves of `load`: what is read has no system yet, and nothing of it is decided.
 [[nodiscard]] CheckedModel read(const std::string& path, const std::vector<Setting>& settings, bool unchecked);
+/// The same of a text, which says `name` where it is wrong.
+[[nodiscard]] CheckedModel read_text(const std::string& name, std::string text);
 void prove(CheckedModel& checked);
 
 /// What is not proved of a model or a morphism (`noun`), as warnings; one that is refuted throws MathematicsError

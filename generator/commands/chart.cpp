@@ -7,7 +7,7 @@
 #include "commands/chart/stability_chart.hpp"
 #include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
-#include "commands/scene/scene_options.hpp"
+#include "commands/line/scene_options.hpp"
 #include "machine/places.hpp"
 #include "machine/process.hpp"
 #include "machine/write_file.hpp"
@@ -69,22 +69,15 @@ void make_folder(const std::string& folder)
     if (error) throw MachineError(fmt::format("cannot make the folder '{}': {}", folder, error.message()));
 }
 
-/// Warns of what the model's proofs leave open.
-void show_warnings(const CheckedModel& checked)
-{
-    warn(checked.warnings);
-}
-
 /// `chart --stability`.
 ExitCode chart_stability(const Options& options, ChartRequest request, bool as_json)
 {
     CheckedModel checked = read(model_path(options.positional()[0]), options.settings(), options.has("unchecked"));
     request.scene = scene_of(options, checked.model, options.named("initial"));
     require_no_jumps(request.scene, "stability charts are made");
-    request.form = form_of(checked.model, request.scene);
     std::vector<StabilityAxis> axes = stability_axes(options.get("over"), checked.model, request.scene);
     prove(checked);
-    show_warnings(checked);
+    warn(checked.warnings);
     const std::string folder = options.get("output");
     make_folder(folder);
     const StabilityChart chart = make_stability_chart(checked, request, std::move(axes));
@@ -115,11 +108,10 @@ ExitCode run_chart(Arguments arguments)
     if (options.has("stability")) return chart_stability(options, std::move(request), as_json);
     const std::string folder = options.get("output");
     CheckedModel checked = charted_model(options, model_path(options.positional()[0]));
-    show_warnings(checked);
+    warn(checked.warnings);
     request.scene = scene_of(options, checked.model, options.named("initial"));
     require_curve(request.scene, "charts are made");
     require_no_jumps(request.scene, "charts are made");
-    request.form = form_of(checked.model, request.scene);
     make_folder(folder);
     const Chart chart = make_chart(checked, request);
     if (!chart.shortened.empty()) warn(fmt::format("the chart ends at t = {:.9g}: {}", chart.end, chart.shortened));

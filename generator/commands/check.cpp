@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// `lagen check`: decides every claim of the models named.
+#include "commands/report/check.hpp"
 #include "advice/advise.hpp"
 #include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
-#include "commands/report_check.hpp"
-#include "commands/report_morphism.hpp"
+#include "commands/report/morphism.hpp"
 #include "elaborate/elaborate.hpp"
 #include "elaborate/make_frame.hpp"
 #include "elaborate/require_values.hpp"
@@ -12,7 +12,7 @@
 #include "machine/places.hpp"
 #include "machine/write_file.hpp"
 #include "model/families.hpp"
-#include "model/read_file.hpp"
+#include "model/read_values.hpp"
 #include "scene/evaluate_scene.hpp"
 
 #include <fmt/core.h>

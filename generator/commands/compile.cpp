@@ -2,13 +2,10 @@
 /// `lagen compile`: a model as a shared object, which lagen::CompiledModel and other programs load.
 #include "machine/compile.hpp"
 #include "commands/line/command.hpp"
-#include "commands/line/options.hpp"
-#include "commands/scene/scene_program.hpp"
-#include "machine/places.hpp"
+#include "commands/line/scene_options.hpp"
 #include "machine/write_file.hpp"
-#include "model/form.hpp"
 #include "model/scene_form.hpp"
-#include "pipeline.hpp"
+#include "scene/scene_program.hpp"
 
 #include <fmt/core.h>
 
@@ -48,9 +45,7 @@ ExitCode run_compile(Arguments arguments)
     if (options.help()) return ExitCode::done;
     if (!options.has("output")) throw UsageError("the shared object needs a name: -o FILE.so");
     if (options.has("form")) (void)options.choice("form", form_names());
-    const CheckedModel checked =
-        load(model_path(options.positional()[0]), options.settings(), options.has("unchecked"));
-    require_apart(options, checked.model);
+    const CheckedModel checked = loaded(options);
     require_writable(options.get("output"));
     GenerateRequest request;
     request.form = options.has("form") ? options.get("form") : default_form(checked.model);

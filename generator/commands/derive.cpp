@@ -157,9 +157,8 @@ ExitCode run_derive(Arguments arguments)
     } else {
         text = marked(format == "text" ? print_text(equations) : print_latex(equations), format, warnings);
     }
-    const std::string file = options.has("output") ? options.get("output") : "-";
-    announce(text, file);
-    write_file(file, text.ends_with('\n') ? text : text + "\n");
+    announce(text, options.output());
+    write_file(options.output(), text.ends_with('\n') ? text : text + "\n");
     return ExitCode::done;
 }
 

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// `lagen generate`: the C++ header of a model.
 #include "commands/line/command.hpp"
-#include "commands/line/options.hpp"
-#include "commands/scene/scene_options.hpp"
+#include "commands/line/scene_options.hpp"
 #include "kernels/requested_kernels.hpp"
-#include "machine/places.hpp"
 #include "machine/write_file.hpp"
 #include "model/scene_form.hpp"
-#include "pipeline.hpp"
 #include "text/record.hpp"
 
 #include <fmt/format.h>
@@ -118,9 +115,7 @@ ExitCode run_generate(Arguments arguments)
     const bool as_json = options.as_json();
     if (options.has("form")) (void)options.choice("form", form_names());
     if (options.has("depfile") && !options.has("output")) throw UsageError("--depfile needs --output");
-    const std::string model = model_path(options.positional()[0]);
-    const CheckedModel checked = load(model, options.settings(), options.has("unchecked"));
-    require_apart(options, checked.model);
+    const CheckedModel checked = loaded(options);
     const std::string made = options.has("form") ? options.get("form") : default_form(checked.model);
     warn(warnings_of(checked, made));
     GenerateRequest request;
@@ -132,14 +127,13 @@ ExitCode run_generate(Arguments arguments)
         throw UsageError("--only names no kernel (see lagen generate --help)");
     request.with = split_list(options.get("with"));
     request.time_scale = time_scale_of(options, checked.model);
-    const std::string output = options.has("output") ? options.get("output") : "-";
     const Generated generated = generate(checked, request);
     if (request.report) write_standard_error(operations_text(generated.reports));
-    write_file(output, as_json ? to_json(record_of(generated)) + "\n" : generated.header);
+    write_file(options.output(), as_json ? to_json(record_of(generated)) + "\n" : generated.header);
     if (options.has("depfile")) {
-        std::string inputs = escaped(model);
+        std::string inputs = escaped(checked.model.file->name);
         for (const auto& file : checked.model.included) inputs += " " + escaped(file->name);
-        write_file(options.get("depfile"), fmt::format("{}: {}\n", escaped(output), inputs));
+        write_file(options.get("depfile"), fmt::format("{}: {}\n", escaped(options.output()), inputs));
     }
     return ExitCode::done;
 }

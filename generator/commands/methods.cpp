@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// `lagen methods`: the integrators, and how long their steps may be.
-#include "commands/scene/methods.hpp"
+#include "scene/methods.hpp"
 #include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
-#include "commands/scene/linear_limits.hpp"
 #include "machine/write_file.hpp"
+#include "scene/linear_limits.hpp"
 #include "text/record.hpp"
 
 #include <fmt/core.h>

@@ -19,9 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// KIND.toml in the folder `new` of the example models; what lies in KIND/ there is written beside it as NAME_*.toml.
-constexpr std::array template_kinds{"tangent",      "lie_algebra", "action", "general",      "subbundle",
-                                    "atiyah",       "level_set",   "frame",  "nonholonomic", "product",
-                                    "prolongation", "discrete",    "control"};
+constexpr std::array template_kinds{"tangent",      "lie_algebra", "action",   "general",      "subbundle",
+                                    "atiyah",       "level_set",   "frame",    "nonholonomic", "product",
+                                    "prolongation", "first_order", "discrete", "control"};
 
 const std::string kind_help =
     fmt::format("{} or {}", fmt::join(template_kinds.begin(), template_kinds.end() - 1, ", "), template_kinds.back());

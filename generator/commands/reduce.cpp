@@ -3,21 +3,21 @@
 /// both; of a model its cyclic coordinates, or its Routh reduction by some of them.
 #include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
-#include "commands/reduce/by_group.hpp"
-#include "commands/reduce/routh_document.hpp"
-#include "commands/report_check.hpp"
-#include "commands/report_morphism.hpp"
-#include "commands/scene/scene_options.hpp"
+#include "commands/line/scene_options.hpp"
+#include "commands/report/check.hpp"
+#include "commands/report/morphism.hpp"
 #include "elaborate/elaborate_morphism.hpp"
 #include "elaborate/make_frame.hpp"
 #include "machine/places.hpp"
 #include "machine/write_file.hpp"
-#include "model/read_file.hpp"
+#include "model/read_values.hpp"
 #include "pipeline.hpp"
+#include "reduction/by_group.hpp"
+#include "reduction/by_routh.hpp"
+#include "text/comma_list.hpp"
 #include "typeset/print_equations.hpp"
 #include "verify/cyclic.hpp"
 #include "verify/verify_reduction.hpp"
-#include "verify/verify_routh.hpp"
 
 #include <fmt/format.h>
 
@@ -55,19 +55,11 @@ std::string row_of(const Check& check)
     return check.name == "constraint" ? check.name : check.indices[0];
 }
 
-std::vector<std::string> rows_in(const std::vector<Check>& checks)
-{
-    std::vector<std::string> rows;
-    for (const Check& check : checks)
-        if (std::ranges::find(rows, row_of(check)) == rows.end()) rows.push_back(row_of(check));
-    return rows;
-}
-
 /// "  lagrange        g1, g2, g3, w1: proved", a line a form and a status.
 std::string components_text(const std::vector<Check>& checks)
 {
     std::string text;
-    for (const std::string& row : rows_in(checks))
+    for (const std::string& row : distinct(checks, row_of))
         for (const ProofStatus status : {ProofStatus::proved, ProofStatus::refuted, ProofStatus::undecided}) {
             std::vector<std::string> components;
             for (const Check& check : checks)
@@ -118,7 +110,7 @@ Record reduction_record(const VerifiedMorphism& verified, const ReductionReport&
 
 void write_result(const Options& options, const std::string& text)
 {
-    write_file(options.has("output") ? options.get("output") : "-", text.ends_with('\n') ? text : text + "\n");
+    write_file(options.output(), text.ends_with('\n') ? text : text + "\n");
 }
 
 ExitCode reduce_morphism(const Options& options, const MorphismFile& file)
@@ -133,7 +125,7 @@ ExitCode reduce_morphism(const Options& options, const MorphismFile& file)
     const auto add = [&](std::vector<EquationSet>& list, const Model& model, const System& system, const Report& known,
                          const std::vector<Check>& checks) {
         warn(require_unrefuted("model", model.name, model.file->name, known.structure, unchecked));
-        for (const std::string& row : rows_in(checks))
+        for (const std::string& row : distinct(checks, row_of))
             if (row != "constraint") {
                 EquationSet equations = derive(row, model, system, known, {}, Definitions::kept);
                 list.push_back(is_json ? std::move(equations) : with_written_blocks(std::move(equations), model));
@@ -147,85 +139,56 @@ ExitCode reduce_morphism(const Options& options, const MorphismFile& file)
     return code_of(report.projects.verdict);
 }
 
-/// Throws MathematicsError with the defect of a coordinate that is none.
-void require_cyclic(const Model& model, const StructureReport& report, const std::vector<std::size_t>& coordinates)
+/// Writes the file of a reduced model where its function, called `key` in JSON, is not refuted.
+ExitCode write_reduced(const Options& options, const std::string& model, const std::string& by, const char* key,
+                       const ReducedModel& made)
 {
-    for (const Check& check : report.checks)
-        for (const std::size_t k : coordinates)
-            if (check.indices[0] == model.base.coordinates[k].name && check.decision.status == ProofStatus::refuted)
-                throw MathematicsError(
-                    fmt::format(
-                        "model '{}' is not to be reduced by '{}', which is not cyclic: {} depends on it, with the "
-                        "derivative {}",
-                        model.name, check.indices[0], check.indices[1], check.decision.residual),
-                    "lagen reduce without --routh lists the cyclic coordinates");
-}
-
-/// Writes the file of a reduced model where its function is not refuted, with what is `said` of it.
-ExitCode write_reduced(const Options& options, const std::string& model,
-                       const std::pair<const char*, std::string>& function, const std::string& document,
-                       const std::string& said, const StructureReport& report)
-{
-    const bool writes = !document.empty() && (report.verdict != Verdict::invalid || options.has("unchecked"));
+    const Verdict verdict = made.report.verdict;
+    const bool writes = !made.document.empty() && (verdict != Verdict::invalid || options.has("unchecked"));
     if (options.as_json()) {
-        Record record = {{"model", model}, {"verdict", to_text(report.verdict)}};
-        if (!document.empty()) record.update({{function.first, function.second}, {"file", document}});
-        add_structure(record, report);
+        Record record = {{"model", model}, {"verdict", to_text(verdict)}};
+        if (!made.document.empty()) record.update({{key, made.lagrangian}, {"file", made.document}});
+        add_structure(record, made.report);
         write_file("-", to_json(record) + "\n");
-        if (options.has("output") && writes) write_file(options.get("output"), document);
+        if (options.has("output") && writes) write_file(options.get("output"), made.document);
     } else {
-        write_standard_error(said);
-        if (writes) write_result(options, document);
+        write_standard_error(fmt::format("{}: reduced by {}: {}\n{}{}", model, by, to_text(verdict), made.said,
+                                         failures_text(made.report)));
+        if (writes) write_result(options, made.document);
     }
-    return code_of(report.verdict);
+    return code_of(verdict);
 }
 
-/// R is what is read back from the file, and proved to have the motions of L.
-ExitCode reduce_by_routh(const Options& options, const std::string& path)
+/// NAME=VALUE, .. of an option.
+std::vector<Setting> listed(const Options& options, const char* name)
 {
-    const CheckedModel checked = load(path, options.settings(), options.has("unchecked"));
-    const Model& model = checked.model;
-    require_apart(options, model);
-    warn(checked.warnings);
-    for (const Scene& scene : model.scenes) require_no_jumps(scene, "Routh's reductions are made");
-    const std::vector<std::size_t> cyclic = coordinates_to_reduce(model, split_list(options.get("routh")));
-    const StructureReport free_of = cyclic_coordinates(checked.system);
-    require_cyclic(model, free_of, cyclic);
-    Graph graph = checked.system.graph;
-    const Routhian made = routhian(graph, checked.system, cyclic);
-    const RouthianText text = routhian_text(model, checked.system, graph, made);
-    const std::vector<Tree> factors = singular_factors_of_momenta(graph, checked.system, made);
-    const std::string document = routh_document(model, options.settings(), cyclic, text, factors);
-    const Model reduced = read_model_text(model.name + "_routh.toml", document);
-    std::vector<std::string> where;
-    for (const Tree& factor : factors) where.push_back(to_text(factor) + " != 0");
-    const StructureReport report = verify_routh(graph, checked.system, made, elaborate(reduced), free_of, where);
-    std::string said =
-        fmt::format("{}: reduced by {}: {}\n", model.name, options.get("routh"), to_text(report.verdict));
-    for (std::size_t j = 0; j < cyclic.size(); ++j)
-        said += fmt::format("  {} = {}\n", model.fibre.coordinates[cyclic[j]].name, to_text(text.velocities[j]));
-    said += fmt::format("  R = {}\n", to_text(text.value));
-    for (const Check& check : report.checks) // where momenta do not jump
-        for (const std::string& each : check.where)
-            if (std::ranges::find(where, each) == where.end()) where.push_back(each);
-    if (!where.empty()) said += fmt::format("  where {}\n", fmt::join(where, " and "));
-    said += failures_text(report);
-    return write_reduced(options, model.name, {"routhian", to_text(text.value)}, document, said, report);
+    std::vector<Setting> settings;
+    for (const std::string& each : split_list(options.get(name))) settings.push_back(read_setting(name, each));
+    return settings;
 }
 
-/// L likewise.
-ExitCode reduce_by_group(const Options& options, const std::string& path)
+CheckedModel load_to_reduce(const Options& options)
+{
+    CheckedModel checked = loaded(options);
+    warn(checked.warnings);
+    return checked;
+}
+
+ExitCode reduce_by_routh(const Options& options)
+{
+    const CheckedModel checked = load_to_reduce(options);
+    for (const Scene& scene : checked.model.scenes) require_no_jumps(scene, "Routh's reductions are made");
+    return write_reduced(options, checked.model.name, options.get("routh"), "routhian",
+                         reduce_by_routh(checked, split_list(options.get("routh"))));
+}
+
+ExitCode reduce_by_group(const Options& options)
 {
     if (!options.has("action")) throw UsageError("--group needs --action, how an element W moves the coordinates");
-    const CheckedModel checked = load(path, options.settings(), options.has("unchecked"));
-    require_apart(options, checked.model);
-    warn(checked.warnings);
-    const GroupQuotient made = quotient_by_group(checked, options.settings(), options.get("group"),
-                                                 options.get("action"), options.get("slice"));
-    return write_reduced(options, checked.model.name, {"lagrangian", made.lagrangian}, made.document,
-                         fmt::format("{}: reduced by {}: {}\n{}{}", checked.model.name, options.get("group"),
-                                     to_text(made.report.verdict), made.said, failures_text(made.report)),
-                         made.report);
+    const CheckedModel checked = load_to_reduce(options);
+    const GroupRequest request{options.get("group"), listed(options, "action"), listed(options, "slice"),
+                               options.get("slice")};
+    return write_reduced(options, checked.model.name, request.group, "lagrangian", quotient_by_group(checked, request));
 }
 
 /// "ph" of each coordinate that is proved to be cyclic.
@@ -237,11 +200,9 @@ std::vector<std::string> cyclic_names(const StructureReport& report)
     return names;
 }
 
-ExitCode list_cyclic(const Options& options, const std::string& path)
+ExitCode list_cyclic(const Options& options)
 {
-    const CheckedModel checked = load(path, options.settings(), options.has("unchecked"));
-    require_apart(options, checked.model);
-    warn(checked.warnings);
+    const CheckedModel checked = load_to_reduce(options);
     const System& system = checked.system;
     if (!system.lagrangian && !system.hamiltonian)
         throw MathematicsError(
@@ -283,9 +244,9 @@ ExitCode run_reduce(Arguments arguments)
                 throw UsageError(fmt::format("--{} takes a model, and this is a morphism", of_models));
         return reduce_morphism(options, read_morphism(file, options.settings(), choosers()));
     }
-    if (options.has("routh")) return reduce_by_routh(options, path);
-    if (options.has("group")) return reduce_by_group(options, path);
-    return list_cyclic(options, path);
+    if (options.has("routh")) return reduce_by_routh(options);
+    if (options.has("group")) return reduce_by_group(options);
+    return list_cyclic(options);
 }
 
 } // namespace lagen

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// `lagen run`: generates, compiles (cached) and integrates a scene.
+#include "commands/report/run.hpp"
 #include "commands/chart/accuracy.hpp"
 #include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
+#include "commands/line/scene_options.hpp"
 #include "commands/plot/draw_scene.hpp"
-#include "commands/run_morphism.hpp"
-#include "commands/scene/integrate_scene.hpp"
-#include "commands/scene/scene_options.hpp"
-#include "commands/scene/scene_run.hpp"
-#include "commands/scene/second_run.hpp"
-#include "commands/variations/variation_states.hpp"
 #include "elaborate/bind_parameters.hpp"
 #include "elaborate/elaborate.hpp"
 #include "elaborate/variational_model.hpp"
@@ -17,8 +13,12 @@
 #include "machine/temporary_folder.hpp"
 #include "machine/write_file.hpp"
 #include "model/plain_names.hpp"
-#include "model/read_file.hpp"
+#include "model/read_values.hpp"
 #include "model/scene_form.hpp"
+#include "reduction/least_scene.hpp"
+#include "scene/integrate_scene.hpp"
+#include "scene/scene_run.hpp"
+#include "scene/variation_states.hpp"
 
 #include <fmt/core.h>
 
@@ -75,6 +75,8 @@ const CommandSyntax run_syntax{
      {"no-second-run", nullptr, "say nothing of it"},
      {"reconstruct", nullptr,
       "of a morphism that is bijective on the fibres: lift the motion of the target to the source too"},
+     option::least,
+     option::full,
      option::unchecked,
      option::format}};
 
@@ -85,6 +87,20 @@ const MethodEntry* variational_method(const Options& options, const Model& model
     if (asked.empty() && model.scenes.empty()) return nullptr;
     const MethodEntry* method = find_method(asked.empty() ? find_scene(model, options.get("scene")).method : asked);
     return method != nullptr && *method->scheme != '\0' ? method : nullptr;
+}
+
+/// --variations N, --seed S, --jacobi-field NAME=VALUE.
+VariationRequest variations_of(const Options& options, const Model& model)
+{
+    constexpr std::uint64_t most_variations = 100;
+    VariationRequest request;
+    if (options.has("variations")) request.count = whole_option(options, "variations", 1, most_variations);
+    if (options.has("seed") && request.count == 0) throw UsageError("--seed needs --variations");
+    if (options.has("seed")) request.seed = whole_option(options, "seed", 0);
+    for (const Setting& start : options.named("jacobi-field"))
+        request.field.push_back({start.name, option_tree(model, "jacobi-field", start.value),
+                                 start.value.range(0, start.value.text.size())});
+    return request;
 }
 
 /// The number of the first arrow that is asked for, which only a discrete motion from momenta has.
@@ -122,6 +138,30 @@ void tell(const Options& options, const RunOutcome& outcome, const std::vector<s
     write_standard_error(start_note(outcome) + run_warnings(outcome));
 }
 
+/// Puts the least model in the place of the whole one where --least asks for it, and says what that left out; nothing
+/// where the whole one runs.
+std::optional<LeastNote> put_least(const Options& options, CheckedModel& checked, Scene& scene)
+{
+    if (options.has("least") && options.has("full")) throw UsageError("--least and --full exclude one another");
+    if (!options.has("least")) return {};
+    for (const char* other : {"variations", "jacobi-field", "reconstruct", "branch", "plot"})
+        if (options.has(other)) throw UsageError(fmt::format("--least leaves out what --{} is about", other), "--full");
+    require_curve(scene, "least models are made");
+    prove(checked);
+    const LeastScene least = least_scene(checked, scene, true);
+    if (least.least == least.full || !least.unwritten.empty()) {
+        write_standard_error(fmt::format("  the whole model runs: {}\n",
+                                         least.unwritten.empty() ? "nothing can be left out" : least.unwritten));
+        return {};
+    }
+    write_standard_error(
+        fmt::format("  the least model runs: {} of {} states; `lagen explain` says why\n", least.least, least.full));
+    LeastRun run = least_run(least);
+    checked = std::move(run.model);
+    scene = std::move(run.scene);
+    return LeastNote{least.least, least.full, least.relations, least.not_followed};
+}
+
 } // namespace
 
 ExitCode run_run(Arguments arguments)
@@ -135,7 +175,7 @@ ExitCode run_run(Arguments arguments)
     for (const char* word : {"curves", "equal", "points", "sphere", "like"})
         if (options.has(word) && !options.has("plot"))
             throw UsageError(fmt::format("--{} says what --plot draws: give --plot FILE.svg as well", word));
-    (void)second_run_of(options);
+    const SecondRun second = second_run_of(options);
     for (const char* file : {"output", "plot"})
         if (options.has(file)) require_writable(options.get(file));
 
@@ -160,27 +200,31 @@ ExitCode run_run(Arguments arguments)
     Scene scene = scene_of(options, model, options.named("initial"));
     const std::vector<std::string> beside = scenes_beside(options, model, scene);
     const bool stretch = options.has("at") && !options.has("t-end");
-    const VariationRequest variations = variations_of(options);
+    const VariationRequest variations = variations_of(options, model);
     if (variations.any()) require_no_jumps(scene, "variations are taken");
     if (variations.any())
         add_variation_states(checked.model, elaborate(model), scene, variations,
                              sample_times(scene, evaluate_scene(model, scene), 1, stretch));
-    const MethodEntry& method = accurate ? *accurate->method : method_of(options, scene);
+    const MethodEntry& method = accurate ? *accurate->method : method_of(scene);
     std::optional<std::uint64_t> branch;
     if (options.has("branch")) branch = branch_of(options, scene, evaluate_scene(model, scene));
-    SceneRun run(options, checked, std::move(scene), method, stretch);
+    const std::string name = model.name;
+    const std::optional<LeastNote> least = put_least(options, checked, scene);
+    SceneRun run(checked, std::move(scene), method, stretch);
     run.input().branch = branch;
 
     bool whole = !accurate || confirm_accuracy(*accurate, run.record(), run.input());
 
     const std::vector<std::string> known = all_names(model);
     const InterruptsHeld held; // between programs, which they reach: rows are written first
-    RunOutcome outcome = run.integrate();
+    RunOutcome outcome = run.integrate(second);
     if (is_interrupted(outcome))
         return leave_rows(options, outcome.table, known, report_json(outcome) + "\n", outcome.t);
+    outcome.model = name;
+    outcome.least = least;
     outcome.action = action_report(outcome, variations);
-    if (const std::string file = options.get("output"); !file.empty())
-        write_file(file, file.ends_with(".json") ? report_json(outcome) + "\n" : to_csv(outcome.table, known));
+    if (const std::string output = options.get("output"); !output.empty())
+        write_file(output, output.ends_with(".json") ? report_json(outcome) + "\n" : to_csv(outcome.table, known));
     std::string picture;
     const bool drawn = is_uninterrupted([&] {
         if (options.has("plot")) picture = draw_scene(options, run, outcome, beside, whole);

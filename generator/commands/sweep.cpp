@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// `lagen sweep`: one scene from many starts and with many parameters, a row for each.
 #include "commands/line/command.hpp"
-#include "commands/scene/preparation.hpp"
-#include "commands/scene/run_report.hpp"
-#include "commands/scene/scene_options.hpp"
+#include "commands/line/scene_options.hpp"
+#include "commands/report/run.hpp"
 #include "commands/sweep/sweep_run.hpp"
 #include "elaborate/bind_parameters.hpp"
 #include "machine/compile.hpp"
 #include "machine/places.hpp"
 #include "machine/write_file.hpp"
 #include "model/scene_form.hpp"
+#include "scene/preparation.hpp"
 
 #include <fmt/format.h>
 
@@ -95,7 +95,7 @@ std::string summary(const std::string& path, const SweepFile& file, const std::m
         if (const auto reason = reasons.find(status); reason != reasons.end())
             why += fmt::format("  {}: {}\n", status, reason->second);
     }
-    return fmt::format("{}: {} row{}{}\n{}", path, file.rows(), file.rows() == 1 ? "" : "s",
+    return fmt::format("{}: {}{}\n{}", path, count_text(file.rows(), "row"),
                        failed == 0 ? "" : fmt::format(", {} failed: {}", failed, kinds), why);
 }
 
@@ -104,8 +104,8 @@ std::string small_lanes_warning(const SweepRun& run, bool resumed)
 {
     const std::uint64_t count = run.rows_below_absolute();
     if (count == 0) return "";
-    return below_absolute_warning(fmt::format("in {}{} row{} {}", resumed ? "at least " : "", count,
-                                              count == 1 ? "" : "s", fmt::join(run.lanes_below_absolute(), ", ")),
+    return below_absolute_warning(fmt::format("in {}{} {}", resumed ? "at least " : "", count_text(count, "row"),
+                                              fmt::join(run.lanes_below_absolute(), ", ")),
                                   "");
 }
 
@@ -180,8 +180,8 @@ ExitCode run_sweep(Arguments arguments)
     const SweepRows rows = sweep_rows(options, request, model, scene);
     require_constants(model, rows);
     scene = with_swept(model, std::move(scene), rows);
-    const MethodEntry& method = method_of(options, scene);
-    Preparation preparation(options, checked, scene, method, sweep_driver);
+    const MethodEntry& method = method_of(scene);
+    Preparation preparation(checked, scene, method, sweep_driver);
     warn(checked.warnings);
     const std::vector<long double> parameters = finite_numbers(SceneEvaluator(model, scene).parameters({}), scene);
     StartState start([&](bool decided) -> const CheckedModel& { return preparation.checked(parameters, decided); },

@@ -20,7 +20,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <set>
 
 namespace lagen {
 namespace {
@@ -122,6 +121,7 @@ class Elaboration {
             system_.jacobi_field = {{sigma, delta}, {delta, delta + static_cast<std::ptrdiff_t>(system_.r())}};
         }
         if (model_.lagrangian) system_.lagrangian = without_cancelled_time(graph_, system_, lower_(model_.lagrangian));
+        for (const Tree& rate : model_.rates) system_.rates.push_back(lower_(rate));
         if (model_.hamiltonian)
             system_.hamiltonian = without_cancelled_time(graph_, system_, lower_(model_.hamiltonian));
         if (model_.forces.empty() && !model_.dissipation) return;

@@ -32,6 +32,7 @@ void append_built(std::vector<Tree>& trees, const Model& model, const WrittenAlg
     for (const NamedTree& casimir : model.base.casimirs) trees.push_back(casimir.value);
     for (const AnchorValue& entry : algebroid.rho) trees.push_back(entry.value);
     for (const StructureValue& entry : algebroid.C) trees.push_back(entry.value);
+    trees.insert(trees.end(), model.rates.begin(), model.rates.end());
     for (const Tree& tree : {model.lagrangian, model.dissipation})
         if (tree) trees.push_back(tree);
     for (const ComponentEntry& force : model.forces) trees.push_back(force.value);

@@ -5,7 +5,7 @@
 #include "geometry/named_algebra.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "model/families.hpp"
-#include "model/form.hpp"
+#include "model/scene_form.hpp"
 #include "proof/rational_matrix.hpp"
 
 #include <algorithm>
@@ -206,7 +206,7 @@ void declare_element(Model& model)
     const std::string W = free_name(model, "W");
     for (std::size_t k = 0; k < shape.size(); ++k)
         block.element.push_back(Symbol{entry_name(W, shape, k), block.where, {}, {}, {}});
-    model.families.push_back({W, FamilyRole::element, shape, 0, block.where});
+    model.families.push_back({W, Role::element, shape, 0, block.where});
 }
 
 void declare_next(Model& model)
@@ -216,8 +216,8 @@ void declare_next(Model& model)
         block.next.push_back(Symbol{next_name(each.name), each.where, {}, {}, {}});
     const std::vector<Family> families = model.families;
     for (const Family& each : families)
-        if (each.role == FamilyRole::base)
-            model.families.push_back({next_name(each.name), FamilyRole::next, each.shape, each.first, each.where});
+        if (each.role == Role::base)
+            model.families.push_back({next_name(each.name), Role::next, each.shape, each.first, each.where});
     for (const Symbol& each : block.next)
         if (free_name(model, each.name) != each.name)
             refuse(model,

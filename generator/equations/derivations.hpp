@@ -22,6 +22,11 @@ class SymbolicModel;
                                           const Regularity& regularity = {},
                                           Definitions definitions = Definitions::expanded);
 
+/// The same with definitions of the model and parts that the equations share as symbols (shared_parts.hpp), where
+/// without these they are long: nothing where they are not, or L is degenerate, or the model has Casimirs.
+[[nodiscard]] std::optional<EquationSet> derive_long_lagrange(const Model& model, const System& system,
+                                                              const Regularity& regularity);
+
 /// Blocks: Hamiltonian, labels of the leaves where there are any, velocities, kinematics, equations of motion, energy
 /// balance where it is not zero, Poisson brackets. Throws MathematicsError where the model has neither H nor L, and
 /// where it has no H and `regularity` says that L is degenerate or its momenta are not shown to fix the velocities.
@@ -55,21 +60,13 @@ void add_arrow_names(SymbolicModel& symbolic, const Graph& graph, std::initializ
 [[nodiscard]] EquationSet derive_nonholonomic(const Model& model, const System& system,
                                               Definitions definitions = Definitions::expanded);
 
-/// lambda_a as functions of the state. Throws MathematicsError also where the accelerations are too long to be written
-/// out.
-[[nodiscard]] EquationSet derive_reaction(const Model& model, const System& system);
-
-/// The brackets of D. Throws MathematicsError where L is not of mechanical type or there is a drift.
-[[nodiscard]] EquationSet derive_projected(const Model& model, const System& system);
-
-/// h = y^alpha p_alpha - l on D*, y(x, p), the equations of motion, and where there is no drift the almost Poisson
-/// brackets. Throws MathematicsError also where y(x, p) is too long to be written out.
-[[nodiscard]] EquationSet derive_constrained_hamilton(const Model& model, const System& system);
-
-/// These brackets, those of `functions` over x and p in pairs, and the first triple of coordinates on which Jacobi's
-/// identity fails. Throws MathematicsError also where there is a drift.
-[[nodiscard]] EquationSet derive_almost_poisson(const Model& model, const System& system,
-                                                const std::vector<Tree>& functions);
+/// "reaction": lambda_a as functions of the state. "projected": the brackets of D; throws MathematicsError where L is
+/// not of mechanical type or there is a drift. "hamilton": h = y^alpha p_alpha - l on D*, y(x, p), the equations of
+/// motion, and where there is no drift the almost Poisson brackets. "poisson": these brackets, those of `functions`
+/// over x and p in pairs, and the first triple of coordinates on which Jacobi's identity fails; throws where there is
+/// a drift. All throw where accelerations, or y(x, p), are too long to be written out.
+[[nodiscard]] EquationSet derive_nonholonomic_form(const std::string& form, const Model& model, const System& system,
+                                                   const std::vector<Tree>& functions, Definitions definitions);
 
 /// Throws MathematicsError where the model has no Lagrangian.
 void require_lagrangian(const Model& model);
@@ -109,6 +106,11 @@ void require_lagrangian(const Model& model);
 ///   s^a) d q/d s^a - d/dt (d q/d sdot^a) = delta EL_a + 1/2 C^c_ab s^b EL_c,      q = 1/2 delta^2 L
 /// Throws MathematicsError where the model has no L, and where forces act.
 [[nodiscard]] EquationSet derive_variations(const Model& model, const System& system);
+
+/// xdot^i = X^i(t, x) as [rates] gives them, with constraints, Casimirs and invariants. Throws
+/// MathematicsError where it gives none.
+[[nodiscard]] EquationSet derive_first_order(const Model& model, const WrittenAlgebroid& algebroid,
+                                             Definitions definitions);
 
 /// The model has [control]. Throws MathematicsError where the derivation fails.
 [[nodiscard]] EquationSet derive_control_variations(const Model& model, const System& system);

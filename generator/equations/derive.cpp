@@ -8,7 +8,6 @@
 #include "equations/written/vector_equations.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/lower.hpp"
-#include "model/form.hpp"
 #include "model/model.hpp"
 #include "model/scene_form.hpp"
 #include "typeset/equation_set.hpp"
@@ -78,16 +77,14 @@ EquationSet derive_invariants(const Model& model, const System& system, const Re
     return set;
 }
 
-constexpr std::size_t most_written = 50'000; ///< nodes of equations that sums and vectors are sought in
+constexpr std::size_t most_written = 15'000; ///< nodes of equations that sums and vectors are sought in
 
 EquationSet derive_constrained(const std::string& form, const Model& model, const System& system,
                                const std::vector<Tree>& brackets, Definitions definitions)
 {
-    if (form == "reaction") return derive_reaction(model, system);
-    if (form == "projected") return derive_projected(model, system);
     if (form == entry_of(FormKind::lagrange).name) return derive_nonholonomic(model, system, definitions);
-    if (form == entry_of(FormKind::hamilton).name) return derive_constrained_hamilton(model, system);
-    if (form == "poisson") return derive_almost_poisson(model, system, brackets);
+    for (const char* known : {"hamilton", "poisson", "reaction", "projected"})
+        if (form == known) return derive_nonholonomic_form(form, model, system, brackets, definitions);
     throw MathematicsError("the form '" + form + "' of a nonholonomic model is not derived yet",
                            "lagrange, hamilton, poisson, reaction and projected are");
 }
@@ -114,10 +111,15 @@ EquationSet derive(const std::string& form, const Model& model, const System& sy
                         : derive_lagrangian_cartan(model, system, report.mechanics.regularity);
     }
     switch (form_named(form).kind) {
-    case FormKind::lagrange: return derive_lagrange(model, algebroid, report.mechanics.regularity, definitions);
+    case FormKind::lagrange:
+        if (definitions == Definitions::kept)
+            if (auto long_ones = derive_long_lagrange(model, system, report.mechanics.regularity))
+                return std::move(*long_ones);
+        return derive_lagrange(model, algebroid, report.mechanics.regularity, definitions);
     case FormKind::hamilton: return derive_hamilton(model, algebroid, report.mechanics.regularity, definitions);
     case FormKind::pontryagin: return derive_pontryagin(model, algebroid, report.control.maximum, definitions);
     case FormKind::discrete: return derive_discrete(model, system);
+    case FormKind::first_order: return derive_first_order(model, algebroid, definitions);
     }
     throw InternalError("a form without equations");
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "equations/equation_system.hpp"
 
-#include "model/dependency_order.hpp"
-#include "model/form.hpp"
+#include "model/families.hpp"
+#include "model/scene_form.hpp"
 
 namespace lagen {
 

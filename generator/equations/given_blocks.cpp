@@ -3,13 +3,16 @@
 
 namespace lagen {
 
-EquationBlock lagrangian_block(const SymbolicModel& symbolic, const GiNaC::ex& lagrangian, const std::string& arguments)
+EquationBlock lagrangian_block(Equation lagrangian, const std::string& arguments)
 {
     const std::string formula = "L(" + arguments + ")";
-    return {"Lagrangian",
-            formula,
-            formula,
-            {symbolic.equation(LeftSide::symbol, symbolic.free_name({"L", "L_E"}), {lagrangian})}};
+    return {"Lagrangian", formula, formula, {std::move(lagrangian)}};
+}
+
+EquationBlock lagrangian_block(const SymbolicModel& symbolic, const GiNaC::ex& lagrangian, const std::string& arguments)
+{
+    return lagrangian_block(symbolic.equation(LeftSide::symbol, symbolic.free_name({"L", "L_E"}), {lagrangian}),
+                            arguments);
 }
 
 EquationBlock bracket_block(const SymbolicModel& symbolic)
@@ -32,12 +35,20 @@ EquationBlock bracket_block(const SymbolicModel& symbolic)
 
 std::vector<EquationBlock> constraints_and_invariants(SymbolicModel& symbolic)
 {
+    return constraints_and_invariants(symbolic.model(), symbolic.algebroid(), [&](const Tree& tree) {
+        return symbolic.simplified({{"", symbolic.lower(tree)}});
+    });
+}
+
+std::vector<EquationBlock> constraints_and_invariants(const Model& model, const WrittenAlgebroid& algebroid,
+                                                      const std::function<std::vector<TermGroup>(const Tree&)>& write)
+{
     EquationBlock constraints{"constraints", "φ(x) = 0 on M", R"(\phi(x) = 0 \text{ on } M)", {}};
-    for (const Tree& constraint : symbolic.algebroid().constraints)
-        constraints.equations.push_back(symbolic.equation(LeftSide::zero, "", {symbolic.lower(constraint)}));
+    for (const Tree& constraint : algebroid.constraints)
+        constraints.equations.push_back({LeftSide::zero, "", {}, write(constraint)});
     EquationBlock invariants{"claimed invariants", "ḟ = 0", R"(\dot f = 0)", {}};
-    for (const NamedTree& claim : symbolic.model().invariants)
-        invariants.equations.push_back(symbolic.equation(LeftSide::symbol, claim.name, {symbolic.lower(claim.value)}));
+    for (const NamedTree& claim : model.invariants)
+        invariants.equations.push_back({LeftSide::symbol, claim.name, {}, write(claim.value)});
     return {constraints, invariants};
 }
 

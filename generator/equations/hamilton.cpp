@@ -10,7 +10,7 @@
 #include "equations/given_blocks.hpp"
 #include "equations/legendre.hpp"
 #include "equations/symbolic_model.hpp"
-#include "model/form.hpp"
+#include "model/scene_form.hpp"
 #include "text/activity.hpp"
 #include "verify/legendre_obstacle.hpp"
 

@@ -10,7 +10,7 @@
 
 #include "equations/constrained_model.hpp"
 #include "equations/given_blocks.hpp"
-#include "model/form.hpp"
+#include "model/scene_form.hpp"
 
 namespace lagen {
 

@@ -4,7 +4,7 @@
 #include "equations/derivations.hpp"
 #include "graph/core/lower.hpp"
 #include "mechanics/hamilton.hpp"
-#include "model/form.hpp"
+#include "model/scene_form.hpp"
 #include "verify/proof_setting.hpp"
 
 #include <algorithm>
@@ -15,8 +15,21 @@ namespace {
 
 class NonholonomicForms : ConstrainedModel {
   public:
-    NonholonomicForms(const Model& model, const System& system) : ConstrainedModel(model, system), system_(system) {}
+    NonholonomicForms(const Model& model, const System& system, const DefinitionChoice& choice)
+        : ConstrainedModel(model, system, choice), system_(system)
+    {
+    }
 
+    EquationSet derive(const std::string& form, const std::vector<Tree>& functions)
+    {
+        EquationSet set = form == "reaction"    ? reactions()
+                          : form == "projected" ? projected()
+                          : form == "poisson"   ? poisson(functions)
+                                                : hamilton();
+        return symbolic_.closed(std::move(set));
+    }
+
+  private:
     EquationSet reactions()
     {
         EquationSet set = symbolic_.empty_set("reaction");
@@ -101,7 +114,7 @@ class NonholonomicForms : ConstrainedModel {
         };
         if (has_drift()) return set;
         set.blocks.push_back(almost_poisson());
-        if (EquationBlock failure = jacobiator(); !failure.equations.empty()) set.blocks.push_back(std::move(failure));
+        append_jacobiator(set);
         return set;
     }
 
@@ -116,13 +129,12 @@ class NonholonomicForms : ConstrainedModel {
         take_momenta();
         set.blocks = {almost_poisson()};
         if (!functions.empty()) set.blocks.push_back(brackets_of(functions));
-        if (EquationBlock failure = jacobiator(); !failure.equations.empty()) set.blocks.push_back(std::move(failure));
+        append_jacobiator(set);
         return set;
     }
 
-  private:
     /// L = G(Y, Y)/2 - V and no drift: only then the projected bracket gives the equations of motion.
-    void require_mechanical() const
+    void require_mechanical()
     {
         const auto refuse = [&](const char* why) {
             throw MathematicsError("the brackets of model '" + symbolic_.model().name + "' have no projection: " + why,
@@ -132,11 +144,11 @@ class NonholonomicForms : ConstrainedModel {
         GiNaC::exmap rest;
         for (const GiNaC::ex& Y : symbolic_.y()) rest[Y] = 0;
         for (const GiNaC::ex& P : ambient_momenta_) {
-            if (!P.subs(rest, GiNaC::subs_options::no_pattern).expand().is_zero())
+            if (!symbolic_.simpler(P.subs(rest, GiNaC::subs_options::no_pattern)).is_zero())
                 refuse("L has terms that are linear in the velocities, or is not smooth");
             for (const GiNaC::ex& Y : symbolic_.y())
                 for (const GiNaC::ex& Z : symbolic_.y())
-                    if (!symbolic_.derivative(symbolic_.derivative(P, Y), Z).expand().is_zero())
+                    if (!symbolic_.simpler(symbolic_.derivative(symbolic_.derivative(P, Y), Z)).is_zero())
                         refuse("L is not quadratic in the velocities");
         }
     }
@@ -152,7 +164,8 @@ class NonholonomicForms : ConstrainedModel {
             right.push_back(symbolic_.mu()[alpha] - p_[alpha].subs(rest, GiNaC::subs_options::no_pattern));
             for (const GiNaC::ex& y : y_)
                 for (const GiNaC::ex& z : y_)
-                    affine = affine && symbolic_.derivative(symbolic_.derivative(p_[alpha], y), z).expand().is_zero();
+                    affine = affine &&
+                             symbolic_.simpler(symbolic_.derivative(symbolic_.derivative(p_[alpha], y), z)).is_zero();
         }
         const auto y = affine ? solved(hessian(), right) : std::nullopt;
         if (!y)
@@ -262,22 +275,33 @@ class NonholonomicForms : ConstrainedModel {
         return block;
     }
 
+    void append_jacobiator(EquationSet& set)
+    {
+        Graph graph = system_.graph;
+        const auto h = closed_hamiltonian(graph, system_, {});
+        if (!h || !h->constrained) { // the graph does not see that the momenta are affine
+            DecidedStatement statement{"J(f, g, h) = 0", "J(f, g, h) = 0", "undecided"};
+            statement.evidence = "L has terms that cancel";
+            set.statements.push_back(std::move(statement));
+            return;
+        }
+        if (EquationBlock failure = jacobiator(graph, *h->constrained); !failure.equations.empty())
+            set.blocks.push_back(std::move(failure));
+    }
+
     /// The triples are a coordinate of the base or a momentum and two momenta: the first that certainly does not
     /// vanish, else the first that is not shown to vanish; no equations where all are.
-    [[nodiscard]] EquationBlock jacobiator()
+    [[nodiscard]] EquationBlock jacobiator(Graph& graph, const ConstrainedNodes& constrained)
     {
         EquationBlock block{"Jacobiator, the first that does not vanish",
                             "J(f, g, h) = {f, {g, h}} + {g, {h, f}} + {h, {f, g}}",
                             R"(J(f, g, h) = \{f, \{g, h\}\} + \{g, \{h, f\}\} + \{h, \{f, g\}\})",
                             {}};
-        Graph graph = system_.graph;
-        const auto hamiltonian = closed_hamiltonian(graph, system_, {});
-        if (!hamiltonian || !hamiltonian->constrained) throw InternalError("momenta that are affine, and no h");
         ProofSetting setting = proof_setting(graph, system_);
         setting.variables.insert(setting.variables.end(), system_.mu.begin(), system_.mu.end());
         const auto decider = ZeroDecider::make(graph, setting);
         const auto bracket_of = [&](NodeId f, NodeId g) {
-            return almost_poisson_bracket(graph, system_, *hamiltonian->constrained, f, g);
+            return almost_poisson_bracket(graph, system_, constrained, f, g);
         };
         std::vector<NodeId> z = system_.algebroid.x;
         z.insert(z.end(), system_.mu.begin(), system_.mu.end());
@@ -311,36 +335,15 @@ class NonholonomicForms : ConstrainedModel {
     GiNaC::exmap momenta_; ///< y(x, p)
 };
 
-template <class Derivation>
-EquationSet derived_with(const Model& model, const System& system, const Derivation& derivation)
-{
-    require_lagrangian(model);
-    return derived(model, "the nonholonomic equations", [&] {
-        NonholonomicForms forms(model, system);
-        return derivation(forms);
-    });
-}
-
 } // namespace
 
-EquationSet derive_reaction(const Model& model, const System& system)
+EquationSet derive_nonholonomic_form(const std::string& form, const Model& model, const System& system,
+                                     const std::vector<Tree>& functions, Definitions definitions)
 {
-    return derived_with(model, system, [](NonholonomicForms& forms) { return forms.reactions(); });
-}
-
-EquationSet derive_projected(const Model& model, const System& system)
-{
-    return derived_with(model, system, [](NonholonomicForms& forms) { return forms.projected(); });
-}
-
-EquationSet derive_almost_poisson(const Model& model, const System& system, const std::vector<Tree>& functions)
-{
-    return derived_with(model, system, [&](NonholonomicForms& forms) { return forms.poisson(functions); });
-}
-
-EquationSet derive_constrained_hamilton(const Model& model, const System& system)
-{
-    return derived_with(model, system, [](NonholonomicForms& forms) { return forms.hamilton(); });
+    require_lagrangian(model);
+    return derived(model, "the nonholonomic equations", definitions, [&](const DefinitionChoice& choice) {
+        return NonholonomicForms(model, system, choice).derive(form, functions);
+    });
 }
 
 } // namespace lagen

@@ -8,7 +8,7 @@
 #include "equations/given_blocks.hpp"
 #include "equations/linear_equations.hpp"
 #include "equations/symbolic_model.hpp"
-#include "model/form.hpp"
+#include "model/scene_form.hpp"
 #include "verify/control_maximum.hpp"
 
 #include <algorithm>

@@ -2,7 +2,6 @@
 #include "equations/symbolic_model.hpp"
 
 #include "expression/rewrite.hpp"
-#include "model/total_cost.hpp"
 #include "text/activity.hpp"
 #include "typeset/latex_names.hpp"
 
@@ -289,9 +288,14 @@ GiNaC::ex SymbolicModel::lower_at(const Tree& tree, const std::map<std::string, 
     return lower_rough(replace_names(tree, velocities));
 }
 
+EquationBlock states_block(std::vector<Equation> equations)
+{
+    return {"first-order states", "ż = f(t, x, y, z)", R"(\dot z = f(t, x, y, z))", std::move(equations)};
+}
+
 EquationBlock SymbolicModel::states(const Sum& y)
 {
-    EquationBlock block{"first-order states", "ż = f(t, x, y, z)", R"(\dot z = f(t, x, y, z))", {}};
+    EquationBlock block = states_block({});
     const std::map<std::string, Tree> inserted = velocities(y);
     for (std::size_t k = 0; k < model_.states.size(); ++k)
         if (const FirstOrderState& state = model_.states[k]; !is_total_cost(model_, k))

@@ -35,6 +35,8 @@ struct FormulaTerm {
 /// where none does.
 void append_right_side(EquationBlock& block, const std::vector<FormulaTerm>& terms);
 
+[[nodiscard]] EquationBlock states_block(std::vector<Equation> equations);
+
 class SymbolicModel {
   public:
     /// `functions`: what equations are derived from (L, H, a running cost; null ones are none). Casimirs that they use

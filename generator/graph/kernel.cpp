@@ -45,12 +45,21 @@ std::optional<std::string> further_lanes(const KernelModule& module)
     return std::nullopt;
 }
 
+/// Coordinates, and velocities or momenta: lanes of the first two groups, or of a single one its halves.
+std::pair<std::vector<Quantity>, std::vector<Quantity>> halves(const KernelModule& module)
+{
+    const std::vector<Quantity>& lanes = module.groups.at(0).lanes;
+    if (module.groups.size() > 1) return {lanes, module.groups[1].lanes};
+    const auto middle = lanes.begin() + static_cast<std::ptrdiff_t>(lanes.size() / 2);
+    return {{lanes.begin(), middle}, {middle, lanes.end()}};
+}
+
 } // namespace
 
 SecondOrder second_order_of(const KernelModule& module, const std::vector<NodeId>& rates)
 {
     using Kind = SecondOrder::Kind;
-    const std::vector<Quantity>&x = module.groups.at(0).lanes, &v = module.groups.at(1).lanes;
+    const auto [x, v] = halves(module);
     if (const auto obstacle = further_lanes(module)) return {Kind::no, *obstacle};
     if (x.size() != v.size() || x.empty())
         return {Kind::no,
@@ -74,10 +83,10 @@ SecondOrder second_order_of(const KernelModule& module, const std::vector<NodeId
 Separation separation_of(const KernelModule& module)
 {
     using Kind = Separation::Kind;
-    const std::vector<Quantity>&x = module.groups.at(0).lanes, &y = module.groups.at(1).lanes;
+    const auto [x, y] = halves(module);
     if (const auto obstacle = further_lanes(module)) return {Kind::no, *obstacle};
     if (x.empty()) return {Kind::no, "there are no base coordinates x"};
-    const auto depends = [&](NodeId node, NodeId input) {
+    const auto depends = [&module](NodeId node, NodeId input) {
         return depends_on_any(*module.graph, std::array{node}, std::array{input});
     };
     std::vector<NodeId> velocities, rates, inputs{module.time};

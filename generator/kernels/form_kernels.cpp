@@ -14,7 +14,6 @@
 #include "kernels/kernel_table.hpp"
 #include "kernels/named_trees.hpp"
 #include "kernels/requested_kernels.hpp"
-#include "model/carried_states.hpp"
 #include "model/families.hpp"
 #include "model/model.hpp"
 #include "model/scene_form.hpp"
@@ -137,7 +136,8 @@ std::vector<LaneGroup> lane_groups(const Model& model, const System& system, con
     LaneGroup fibre{form.form->lane_group, "fibre", "The other lanes of State.", {}};
     const std::vector<Symbol>& symbols = form.form->momenta ? model.fibre.momenta : model.fibre.coordinates;
     for (std::size_t a = 0; a < form.lanes.size(); ++a) fibre.lanes.push_back(quantity(symbols[a], form.lanes[a]));
-    std::vector<LaneGroup> groups{std::move(base), std::move(fibre)};
+    std::vector<LaneGroup> groups{std::move(base)};
+    if (form.form->kind != FormKind::first_order || !form.states.empty()) groups.push_back(std::move(fibre));
     if (!form.states.empty())
         groups.push_back({"States", "states", "First-order states, the last lanes of State.", {}});
     for (const std::size_t k : numbers_of(system, form))

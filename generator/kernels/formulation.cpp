@@ -19,8 +19,22 @@ Formulation formulation(Graph& graph, const Model& model, const System& system, 
     case FormKind::hamilton: return hamilton_form(graph, system, report, request);
     case FormKind::pontryagin: return pontryagin_form(graph, model, system, report, request);
     case FormKind::discrete: return discrete_form(graph, model, system, report, request);
+    case FormKind::first_order: return first_order_form(graph, system, request);
     }
     throw InternalError("a form without kernels");
+}
+
+Formulation first_order_form(Graph& graph, const System& system, const FormulationRequest& request)
+{
+    if (system.rates.empty())
+        throw MathematicsError("model '" + system.name + "' has no [rates]; the form of first order needs them",
+                               "[algebroid] kind = \"first_order\"");
+    Formulation form = empty_form(system, FormKind::first_order, {}, request);
+    form.derivative = system.rates;
+    form.documentation = {"The rates of the model, ds = xdot(t, s). s and ds may be the same object."};
+    bind_system(graph, system, form);
+    append_state_rates(graph, system, form);
+    return form;
 }
 
 Formulation empty_form(const System& system, FormKind form, std::vector<NodeId> lanes,

@@ -4,13 +4,14 @@
 ///   lagrange    state (x, y):   W ydot = rho_a(L) + Q_a - (d2L/dydx) rho y - d2L/dydt - p_c C^c_ab y^b
 ///   hamilton    state (x, mu):  xdot = rho dH/dmu, mudot_a = -(rho_a(H) + mu_c C^c_ab dH/dmu_b) + Q_a
 ///   pontryagin  state (x, mu):  the same with H = mu_a sigma^a - cost where u maximises it          [Martinez 2004]
+///   first_order state x:         xdot as it is given
 ///   discrete    state (x, g, mu):  mu = F^-L(g),  F^+L(g) = F^-L(g') where t(g) = s(g')             [Martinez 2001]
 #pragma once
 
 #include "graph/core/lower.hpp"
 #include "graph/kernel.hpp"
 #include "mechanics/hamilton.hpp"
-#include "model/form.hpp"
+#include "model/scene_form.hpp"
 #include "verify/verify.hpp"
 
 namespace lagen {
@@ -59,6 +60,7 @@ struct FormulationRequest {
                                           const FormulationRequest& request);
 [[nodiscard]] Formulation discrete_form(Graph& graph, const Model& model, const System& system, const Report& report,
                                         const FormulationRequest& request);
+[[nodiscard]] Formulation first_order_form(Graph& graph, const System& system, const FormulationRequest& request);
 
 /// That of the form `kind`.
 [[nodiscard]] Formulation formulation(Graph& graph, const Model& model, const System& system, const Report& report,

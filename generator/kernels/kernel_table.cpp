@@ -12,7 +12,8 @@ constexpr Forms lagrange = only(FormKind::lagrange);
 constexpr Forms hamilton = only(FormKind::hamilton);
 constexpr Forms pontryagin = only(FormKind::pontryagin);
 constexpr Forms discrete = only(FormKind::discrete);
-constexpr Forms flow = lagrange | hamilton | pontryagin; ///< those with rates
+constexpr Forms first_order = only(FormKind::first_order);
+constexpr Forms flow = lagrange | hamilton | pontryagin | first_order; ///< those with rates
 constexpr Forms mechanical = lagrange | hamilton;
 constexpr Forms every = flow | discrete;
 
@@ -94,7 +95,7 @@ constexpr std::array kernel_rows{
     KernelRow{"algebra_bracket", mechanical, column_of_values,
               "[xi, eta], shape ({0}): A([xi, eta]) = A(eta) A(xi) - A(xi) A(eta)."},
     KernelRow{"events", flow, column_of_values, "Events: each happens where its value crosses 0."},
-    KernelRow{"jumps", mechanical, dense_matrix,
+    KernelRow{"jumps", mechanical | first_order, dense_matrix,
               "The states behind jumps at s, shape ({0}, {1}): column k is that behind the event jumps_names[k]."},
 };
 

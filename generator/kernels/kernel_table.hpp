@@ -3,7 +3,7 @@
 #pragma once
 
 #include "graph/kernel.hpp"
-#include "model/form.hpp"
+#include "model/scene_form.hpp"
 
 namespace lagen {
 

@@ -77,6 +77,7 @@ System insert_inputs(System system, const std::vector<NamedTree>& inputs)
         nodes = *inserted;
     };
     insert(system.forces);
+    insert(system.rates);
     if (system.control) insert(system.control->sigma);
     system.inputs.clear();
     system.input_values.clear();

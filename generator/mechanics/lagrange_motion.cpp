@@ -37,6 +37,10 @@ LagrangeMotion::LagrangeMotion(Graph& graph, const System& system, const Lagrang
 
 void LagrangeMotion::take_kinematics()
 {
+    if (!system_.rates.empty()) {
+        xdot_ = system_.rates;
+        return;
+    }
     if (!system_.distribution) {
         xdot_ = base_velocity(graph_, system_.algebroid, system_.algebroid.y);
         return;

@@ -131,6 +131,8 @@ struct System {
     std::vector<NodeId> mu;                              ///< inputs mu_a on E* (on D*), one a velocity
     std::optional<NodeId> lagrangian;                    ///< L(t, x, y), over the ambient Y of a distribution
     std::optional<NodeId> hamiltonian;                   ///< H(t, x, mu)
+    std::vector<NodeId>
+        rates; ///< xdot^i(t, x, z, u) of a system of first order, shape (n), which has no fibre; or empty
     std::vector<NodeId> states;                          ///< inputs z of [states]
     std::vector<NodeId> inputs;                          ///< inputs u of [inputs]
     std::vector<std::pair<NodeId, NodeId>> input_values; ///< with their defaults, over parameters

@@ -22,47 +22,12 @@ struct AlgebroidDraft {
     std::vector<AlgebroidDraft> of;
 };
 
-/// The coordinates of a draft's total space.
-struct DraftSpace {
-    std::vector<Symbol> base, fibre, momenta;
-};
-
-/// Reads kinds and files of a table and of the tables and files inside it; `depth` 0: the outermost. Throws ModelError.
-[[nodiscard]] AlgebroidDraft draft_table(ModelReader& reader, const Item& table, std::size_t depth);
 /// The number of sections of its algebroid, over `n` base coordinates.
 [[nodiscard]] std::size_t rank_of(const GroupoidBlock& block, std::size_t n);
 /// "so(n)" and "R^n" with the sizes of the model put in.
 [[nodiscard]] std::string with_sizes(const std::string& algebra, const std::vector<Size>& sizes);
 /// Reads the model that `of` names. Throws ModelError: no such file, a cycle, too many files.
 [[nodiscard]] std::size_t include_model(ModelReader& reader, const TomlValue& of);
-
-/// The innermost draft of frames and prolongations: a file, a product, or a table whose base is the model's own.
-[[nodiscard]] const AlgebroidDraft& leaf_of(const AlgebroidDraft& draft);
-/// The space of a draft whose leaf has this base; fibres left out get the names of their kind.
-[[nodiscard]] DraftSpace space_of(const ModelReader& reader, const AlgebroidDraft& draft,
-                                  const std::vector<Symbol>& leaf_base);
-/// Declares the base coordinates that [base] leaves to files and prolongations, and checks those that it gives. The
-/// number of coordinates of the leaf, which come first; those of prolongations follow, the innermost first.
-std::size_t declare_inner_base(ModelReader& reader, const AlgebroidDraft& draft);
-/// Coordinates that `over` of a tangent table names, as places in `base`; all where it is left out.
-[[nodiscard]] std::vector<std::size_t> read_over(const Item& over, const std::vector<Symbol>& base);
-
-/// Has the frames of level sets made, and names the fibre of an inner one that leaves it out. Throws ModelError.
-void make_level_sets(ModelReader& reader, AlgebroidDraft& draft);
-/// The record of the draft and of everything inside it; the leaf's base are the first coordinates of the model.
-[[nodiscard]] AlgebroidBlock make_block(const ModelReader& reader, const AlgebroidDraft& draft, std::size_t leaf_size);
-
-/// How many sections the kind of a block requires.
-struct RequiredRank {
-    std::size_t least;
-    bool at_least; ///< more will do
-    const char* reason;
-    bool at_most = false; ///< fewer will do
-
-    [[nodiscard]] bool fits(std::size_t rank) const;
-    [[nodiscard]] std::string text() const; ///< "at least 2"
-};
-[[nodiscard]] std::optional<RequiredRank> required_rank(const AlgebroidBlock& block);
 
 /// Parameters, sizes, families, constraints, Casimirs and domains of the included models join the model.
 void merge_included(ModelReader& reader);
@@ -77,17 +42,17 @@ void inherit_mechanics(ModelReader& reader);
 /// is not affine, or has no Y, and others).
 void read_distribution(const ModelReader& reader, AlgebroidBlock& block, const AlgebroidDraft& draft);
 
+/// The matrices of a list, over parameters, of the shape `wanted`; where that is left open square, and of the size of
+/// the first. `hint` ends the message where one is of another, `title` begins it.
+[[nodiscard]] std::vector<ArrayValue> read_matrices(const ModelReader& reader, const Item& list,
+                                                    std::optional<Shape> wanted, const char* hint,
+                                                    const std::function<std::string(std::size_t)>& title);
 /// The entries of a table, and of the tables inside it, closed; `block` is their record.
 void read_entries(const ModelReader& reader, AlgebroidBlock& block, const AlgebroidDraft& draft);
-[[nodiscard]] std::vector<Symbol> coordinates_at(const Model& model, const std::vector<std::size_t>& places);
 /// The base coordinates of a block.
 [[nodiscard]] std::vector<Symbol> coordinates_of(const Model& model, const AlgebroidBlock& block);
-/// "v_x" for each of these coordinates of the model; for x[1,2], whose family need not be whole, "v_x_1_2".
-[[nodiscard]] std::vector<Symbol> kept_velocities(const std::vector<Symbol>& coordinates, const Model& model);
 /// "v_x" for each coordinate.
 [[nodiscard]] std::vector<Symbol> velocities_of(const std::vector<Symbol>& coordinates);
-/// The inner fibre coordinates of a frame, w_b = y^a A_a^b.
-[[nodiscard]] std::vector<Tree> inner_fibre_values(const AlgebroidBlock& block, const std::vector<Tree>& y);
 /// Defines the inner velocities of the model's algebroid, whose entries are read.
 void define_inner_velocities(ModelReader& reader);
 /// The names that define_inner_velocities gives: families by their names.

@@ -4,11 +4,10 @@
 /// (entries of the outer one). A line of an anchor may be by a base coordinate, x = "..", which says x' = .., linear in
 /// the fibre coordinates: R = "R*hat(w)". Behind them kind = "nonholonomic": the coordinates Y of its ambient
 /// algebroid, and the affine distribution b + D in it, by `sections` and `drift` or by `constraints`.
-#include "model/algebroid_draft.hpp"
-
 #include "expression/derivative.hpp"
 #include "expression/fold.hpp"
 #include "expression/parse.hpp"
+#include "model/algebroid_draft.hpp"
 #include "model/complaints.hpp"
 #include "model/families.hpp"
 #include "model/read_values.hpp"
@@ -135,8 +134,8 @@ void require_every_section(const AlgebroidBlock& block, const std::vector<Entry>
 void read_connection(const ModelReader& reader, AlgebroidBlock& block, const Item& table)
 {
     const std::size_t n = std::min(block.base.size(), block.fibre.size());
-    const auto split = block.fibre.begin() + static_cast<std::ptrdiff_t>(n);
-    const std::vector<Symbol> horizontal(block.fibre.begin(), split), vertical(split, block.fibre.end());
+    const std::vector<Symbol> horizontal = part_of(block.fibre, 0, n);
+    const std::vector<Symbol> vertical = part_of(block.fibre, n, block.fibre.size() - n);
     for (const Item& line : table.items())
         for (const Item& item : line.items())
             if (resolve_key(horizontal, item.name()))
@@ -156,8 +155,7 @@ std::size_t section_index(const AlgebroidBlock& block, const Excerpt& key, const
 {
     const std::size_t found = require_entry(block.fibre, key, owner, "fibre coordinate");
     if (block.kind == AlgebroidKind::atiyah && found < block.base.size())
-        throw complain::names_no(owner, block.fibre[found].name, "vertical fibre coordinate",
-                                 key.range(0, key.text.size()),
+        throw complain::names_no(owner, block.fibre[found].name, "vertical fibre coordinate", place_of(key),
                                  "the brackets of horizontal sections follow from 'connection'");
     return found;
 }
@@ -166,7 +164,7 @@ void read_bracket(const ModelReader& reader, AlgebroidBlock& block, const Item& 
 {
     std::set<std::pair<std::size_t, std::size_t>> seen;
     for (const Item& pair : table.items()) {
-        const std::vector<Excerpt> names = sides_of(pair.key());
+        const std::vector<Excerpt> names = split_at_commas(pair.key());
         if (names.size() != 2)
             throw complain::wrong_number(fmt::format("sections in the key '{}'", pair.name()), names.size(),
                                          table.title(), 2, pair.where(),
@@ -195,48 +193,11 @@ void read_representation(const ModelReader& reader, AlgebroidBlock& block, const
     if (list.value().items.size() != block.fibre.size())
         throw complain::wrong_number("matrices in 'representation'", list.value().items.size(), "the fibre",
                                      block.fibre.size(), list.value().where, "one matrix a section");
-    const std::size_t n = block.base.size();
-    const Shape wanted{Rank::matrix, n, n};
-    for (std::size_t a = 0; a < block.fibre.size(); ++a) {
-        const TomlValue& item = list.value().items[a];
-        const std::string what = fmt::format("the matrix of '{}'", block.fibre[a].name);
-        ArrayValue matrix = reader.close(read_array_expression(item, what), Role::parameter, what);
-        if (!(matrix.shape == wanted))
-            throw complain::is_not(what, to_text(matrix.shape), to_text(wanted), item.where,
-                                   "it acts on the vector of all base coordinates");
-        block.representation.push_back(std::move(matrix));
-    }
+    const Shape wanted{Rank::matrix, block.base.size(), block.base.size()};
+    block.representation =
+        read_matrices(reader, list, wanted, "it acts on the vector of all base coordinates",
+                      [&](std::size_t a) { return fmt::format("the matrix of '{}'", block.fibre[a].name); });
 }
-
-} // namespace
-
-void read_entries(const ModelReader& reader, AlgebroidBlock& block, const AlgebroidDraft& draft)
-{
-    if (!draft.kind) return; // the file's own reader has read them
-    const auto at = [&](const char* key) { return draft.table.at(key); };
-    if (const Item anchor = at("anchor")) read_anchor(reader, block, anchor);
-    if (const Item spanned_by = at("spanned_by")) {
-        read_anchor(reader, block, spanned_by);
-        require_every_section(block, block.anchor, spanned_by);
-    }
-    if (const Item bracket = at("bracket")) read_bracket(reader, block, bracket);
-    if (const Item representation = at("representation")) read_representation(reader, block, representation);
-    if (const Item connection = at("connection")) read_connection(reader, block, connection);
-    if (const Item sections = at("sections")) {
-        Roles roles = Role::parameter | Role::base;
-        if (block.kind == AlgebroidKind::nonholonomic) roles = roles | Role::time;
-        read_rows(
-            reader, sections.items(), sections.title(),
-            {block.fibre, "fibre coordinate", block.of[0].fibre, "fibre coordinate of the inner algebroid", roles},
-            [&](std::size_t a, std::size_t b, const Tree& value, const SourceRange& where) {
-                block.sections.push_back({a, b, value, where});
-            });
-        require_every_section(block, block.sections, sections);
-    }
-    for (std::size_t k = 0; k < draft.of.size(); ++k) read_entries(reader, block.of[k], draft.of[k]);
-}
-
-namespace {
 
 /// Degrees of trees in Y: 0, 1, or 2 for what is not affine.
 class Degrees {
@@ -282,7 +243,7 @@ class Degrees {
 
 void require_affine(const Tree& constraint, Degrees& degrees, const Excerpt& text)
 {
-    const SourceRange where = text.range(0, text.text.size());
+    const SourceRange where = place_of(text);
     const int degree = degrees.of(constraint);
     if (degree == 0)
         throw ModelError(fmt::format("the constraint '{}' depends on no ambient fibre coordinate", text.text), where,
@@ -307,12 +268,9 @@ void read_constraints(const ModelReader& reader, AlgebroidBlock& block, const It
             block.constraints.push_back(constraint);
         }
     }
-    if (block.constraints.empty())
-        throw complain::is_not(list.title(), "an empty array", "one constraint at least", list.value().where,
-                               "without a constraint the algebroid is that of [algebroid.of]");
 }
 
-/// As many as the constraints leave.
+/// Throws ModelError unless as many are kept as the constraints leave.
 void require_kept(const ModelReader& reader, const AlgebroidBlock& block)
 {
     const std::size_t r = block.of[0].fibre.size(), m = block.constraints.size(), kept = block.kept.size();
@@ -326,6 +284,48 @@ void require_kept(const ModelReader& reader, const AlgebroidBlock& block)
 
 } // namespace
 
+std::vector<ArrayValue> read_matrices(const ModelReader& reader, const Item& list, std::optional<Shape> wanted,
+                                      const char* hint, const std::function<std::string(std::size_t)>& title)
+{
+    std::vector<ArrayValue> out;
+    for (const TomlValue& item : list.value().items) {
+        const std::string what = title(out.size());
+        out.push_back(reader.close(read_array_expression(item, what), Role::parameter, what));
+        const Shape shape = out.back().shape;
+        const bool square = shape.rank == Rank::matrix && shape.rows == shape.columns;
+        if (!wanted && !square) throw complain::is_not(what, to_text(shape), "a square matrix", item.where);
+        if (!wanted) wanted = shape;
+        if (!(shape == *wanted)) throw complain::is_not(what, to_text(shape), to_text(*wanted), item.where, hint);
+    }
+    return out;
+}
+
+void read_entries(const ModelReader& reader, AlgebroidBlock& block, const AlgebroidDraft& draft)
+{
+    if (!draft.kind) return; // the file's own reader has read them
+    const auto at = [&](const char* key) { return draft.table.at(key); };
+    if (const Item anchor = at("anchor")) read_anchor(reader, block, anchor);
+    if (const Item spanned_by = at("spanned_by")) {
+        read_anchor(reader, block, spanned_by);
+        require_every_section(block, block.anchor, spanned_by);
+    }
+    if (const Item bracket = at("bracket")) read_bracket(reader, block, bracket);
+    if (const Item representation = at("representation")) read_representation(reader, block, representation);
+    if (const Item connection = at("connection")) read_connection(reader, block, connection);
+    if (const Item sections = at("sections")) {
+        Roles roles = Role::parameter | Role::base;
+        if (block.kind == AlgebroidKind::nonholonomic) roles = roles | Role::time;
+        read_rows(
+            reader, sections.items(), sections.title(),
+            {block.fibre, "fibre coordinate", block.of[0].fibre, "fibre coordinate of the inner algebroid", roles},
+            [&](std::size_t a, std::size_t b, const Tree& value, const SourceRange& where) {
+                block.sections.push_back({a, b, value, where});
+            });
+        require_every_section(block, block.sections, sections);
+    }
+    for (std::size_t k = 0; k < draft.of.size(); ++k) read_entries(reader, block.of[k], draft.of[k]);
+}
+
 bool has_constraints_alone(const ModelReader& reader)
 {
     const bool nonholonomic = is_nonholonomic(reader.model);
@@ -335,15 +335,6 @@ bool has_constraints_alone(const ModelReader& reader)
 void declare_ambient(ModelReader& reader)
 {
     if (!is_nonholonomic(reader.model)) return;
-    const std::pair<const char*, const char*> others[] = {
-        {"groupoid", "a distribution has no groupoid"},
-        {"discrete", "nonholonomic models move in continuous time: give [lagrangian] L"},
-        {"control", "nonholonomic models move by d'Alembert's principle: give [lagrangian] L"},
-        {"hamiltonian", "the equations need L on the ambient algebroid: give [lagrangian] L"},
-    };
-    for (const auto& [key, hint] : others)
-        if (const Item block = reader.at(key))
-            throw complain::beside(block.title(), "a nonholonomic algebroid", block.where(), hint);
     declare_symbols(reader, reader.model.algebroid.of[0].fibre, Role::ambient);
 }
 
@@ -373,13 +364,6 @@ void read_distribution(const ModelReader& reader, AlgebroidBlock& block, const A
                        });
     if (const Item constraints = draft.table.at("constraints")) read_constraints(reader, block, constraints);
     if (has_constraints_alone(reader) && !reader.is_probe) require_kept(reader, block);
-}
-
-void refuse_nonholonomic(const ModelReader& reader, const Item& block)
-{
-    if (is_nonholonomic(reader.model))
-        throw complain::beside(block.title(), "a nonholonomic algebroid", block.where(),
-                               "a function that is conserved can be claimed under [invariants]");
 }
 
 } // namespace lagen

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Closing expressions that may use only some of the model's names, and tables of them.
+/// The scopes of a model: which names its expressions may use, and what is said of the others. Closing expressions that
+/// may use only some of the names, and tables of them.
+#include "expression/derivative.hpp"
 #include "expression/find_part.hpp"
 #include "expression/name_hints.hpp"
 #include "expression/rewrite.hpp"
@@ -11,6 +13,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <set>
 
 namespace lagen {
 
@@ -102,6 +105,103 @@ std::string family_hint(const std::string& name, const Shape& shape)
                        shape.columns);
 }
 
+/// True where a derivative or a function of the model is called with as many arguments as it has.
+bool is_call(const Model& model, const TreeNode& node)
+{
+    const DerivativeEntry* derivative = find_derivative(node.name);
+    const std::size_t count = node.arguments.size();
+    return (derivative != nullptr && derivative->arity == count) ||
+           std::ranges::any_of(model.definitions, [&](const Definition& each) {
+               return each.name == node.name && count > 0 && each.parameters.size() == count;
+           });
+}
+
+/// The names in the body of a function that nobody calls: what shapes its parameters have, only a call can say. Parsed
+/// trees are at most 1024 levels deep, so plain recursion is safe.
+void require_names(const ModelReader& reader, const Tree& tree, const std::vector<std::string>& bound)
+{
+    const bool is_free = tree->kind == TreeKind::name && std::ranges::find(bound, tree->name) == bound.end();
+    if (is_free || (tree->kind == TreeKind::apply && !is_call(reader.model, *tree)))
+        (void)reader.arrows.close_array(tree, true);
+    std::vector<std::string> inside = bound;
+    const bool binds = tree->kind == TreeKind::sum_over || tree->kind == TreeKind::product_over;
+    if (binds) inside.push_back(tree->name);
+    for (std::size_t k = 0; k < tree->arguments.size(); ++k)
+        require_names(reader, tree->arguments[k], binds && k == 2 ? inside : bound);
+}
+
+/// Unused definitions are read too: an error in one should not wait for its first use.
+void require_sound_definitions(const ModelReader& reader)
+{
+    for (const Definition& definition : reader.model.definitions)
+        if (definition.parameters.empty())
+            (void)reader.arrows.close_array(name(definition.name, definition.where), true);
+        else
+            require_names(reader, definition.body, definition.parameters);
+}
+
+/// Explains the names that observables, invariants and events may use and the model's other expressions may not.
+void explain_observed(Scope& scope, const Model& model)
+{
+    const auto explain = [&](Roles roles, const char* hint) {
+        for (const std::string& each : declared_names(symbols_of(model, roles))) scope.explain(each, hint);
+    };
+    explain(Role::momentum, "momenta stand in H, observables, invariants and events only");
+    explain(Role::control, "controls stand in sigma, cost, observables, invariants and events only");
+    explain(Role::input, "inputs stand in forces, sigma, [states], observables and events only");
+    explain(Role::state, "first-order states stand in forces, [states], observables, invariants and events only");
+    explain(Role::element | Role::next, "coordinates of an arrow stand in the discrete Lagrangian, the action (the "
+                                        "element alone), observables and columns of discrete scenes only");
+    scope.explain("energy", "the energy stands in observables, invariants and events only");
+    scope.explain("hamiltonian", "the Hamiltonian stands in observables, invariants and events only");
+}
+
+/// Who misses a name of a state has parameters enough before the eyes.
+void list_parameters_last(Scope& scope, const Model& model)
+{
+    scope.list_last("t");
+    for (const std::string& parameter : declared_names(symbols_of(model, Role::parameter))) scope.list_last(parameter);
+    for (const Size& size : model.sizes) scope.list_last(size.name);
+}
+
+/// The coordinates of an arrow stand where no motion in continuous time is asked for.
+void explain_arrows(Scope& scope, const Model& model)
+{
+    if (!model.groupoid) return;
+    if (model.discrete)
+        scope.explain(model.discrete->step.name,
+                      fmt::format("the step stands in the discrete Lagrangian and in "
+                                  "observables; everywhere where it is a parameter, {} = 0.1",
+                                  model.discrete->step.name));
+    if (!model.groupoid->has_targets())
+        for (const std::string& each : declared_names(model.base.coordinates))
+            scope.explain(each + "_next", "of a groupoid of kind \"action\" the target is computed by the action");
+}
+
+/// The observer's scope with what [discrete] L may use besides.
+void build_arrows(ModelReader& reader)
+{
+    const Model& model = reader.model;
+    reader.arrows = reader.observer;
+    if (!model.groupoid) return;
+    add_to_scope(reader.arrows, model, Role::element | Role::next);
+    if (model.discrete && reader.names.find(model.discrete->step.name)->role == Role::step)
+        reader.arrows.declare(model.discrete->step.name, model.discrete->step.where);
+}
+
+/// The fibre of a prolongation is X_a and V_a, or X_a and P_a: the other letter is a slip.
+void explain_prolongation(Scope& scope, const AlgebroidBlock& block)
+{
+    if (block.kind != AlgebroidKind::prolongation) return;
+    const char* wrong = block.dual ? "V_" : "P_";
+    const char* right = block.dual ? "P_" : "V_";
+    for (const std::string& inner : declared_names(block.of[0].fibre))
+        if (scope.has_symbol(right + inner))
+            scope.explain(wrong + inner,
+                          fmt::format("bundle = \"{}\" has {}{}, bundle = \"{}\" has {}{}", block.dual ? "E*" : "E",
+                                      right, inner, block.dual ? "E" : "E*", wrong, inner));
+}
+
 } // namespace
 
 Item ModelReader::at(std::string_view block) const
@@ -127,11 +227,12 @@ const Scope& ModelReader::scope_for(Roles roles) const
 }
 
 ArrayValue ModelReader::close_in(const Scope& scope, const Tree& tree, Roles roles, const std::string& what,
-                                 bool nonsmooth) const
+                                 bool nonsmooth, bool scalar) const
 {
     roles = legal(roles);
     try {
-        ArrayValue closed = scope.close_array(tree, nonsmooth);
+        ArrayValue closed =
+            scalar ? ArrayValue{{}, {scope.close(tree, nonsmooth)}} : scope.close_array(tree, nonsmooth);
         require_roles(closed.entries, *this, roles, tree->where, what);
         return closed;
     } catch (const UnknownSymbol& error) {
@@ -146,15 +247,7 @@ ArrayValue ModelReader::close(const Tree& tree, Roles roles, const std::string& 
 
 Tree ModelReader::scalar(const Tree& tree, Roles roles, const std::string& what, bool nonsmooth) const
 {
-    roles = legal(roles);
-    const Scope& scope = roles == any_role ? observer : scope_for(roles);
-    try {
-        const Tree closed = scope.close(tree, nonsmooth);
-        require_roles({closed}, *this, roles, tree->where, what);
-        return closed;
-    } catch (const UnknownSymbol& error) {
-        refuse_unknown(error, *this, scope, roles);
-    }
+    return close_in(roles == any_role ? observer : scope_for(roles), tree, roles, what, nonsmooth, true).entries[0];
 }
 
 ArrayValue ModelReader::array(const Item& item) const
@@ -177,23 +270,13 @@ std::vector<Tree> ModelReader::entries(const Item& item, const Shape& shape, Rol
 void ModelReader::read_values(const Item& table, const std::vector<Symbol>& symbols, const char* noun, const Take& take,
                               const Hint& hint) const
 {
-    std::map<std::size_t, std::string> given; // by which key
-    for (const Item& item : table.items()) {
-        const Tree parsed = read_array_expression(item.value(), item.title());
-        for (const RunningKey& each : require_keys(symbols, item.key(), table.title(), noun, model.scope, hint)) {
-            const ResolvedKey& key = each.key;
-            const std::string what = item.title_of(key.name);
-            const ArrayValue closed =
-                close(replace_names(parsed, each.indices), item.row().roles, what, item.row().nonsmooth);
-            const std::vector<Tree> values = fit_values(closed, key.shape, what, item.value().where);
-            for (std::size_t k = 0; k < values.size(); ++k) {
-                const std::size_t place = key.indices[k];
-                if (const auto [first, fresh] = given.try_emplace(place, item.name()); !fresh)
-                    throw complain::twice(item.title_of(symbols[place].name), first->second, item.name(), item.where());
-                take(place, values[k], item);
-            }
-        }
-    }
+    const auto values = [&](const Item& item, const RunningKey& each) {
+        const std::string what = item.title_of(each.key.name);
+        const Tree parsed = replace_names(read_array_expression(item.value(), item.title()), each.indices);
+        return fit_values(close(parsed, item.row().roles, what, item.row().nonsmooth), each.key.shape, what,
+                          item.value().where);
+    };
+    read_table(table, symbols, noun, model.scope, values, take, hint);
 }
 
 void ModelReader::declare_keys(const Item& block, Role role)
@@ -214,6 +297,19 @@ void ModelReader::read_declared(const Item& block, const std::function<void(std:
     }
 }
 
+std::vector<NamedTree> read_given(const ModelReader& reader, const Item& table, const std::vector<Symbol>& symbols,
+                                  const char* noun, const ModelReader::Hint& hint)
+{
+    std::vector<NamedTree> given;
+    reader.read_values(
+        table, symbols, noun,
+        [&](std::size_t k, const Tree& value, const Item& item) {
+            given.push_back({symbols[k].name, value, item.where()});
+        },
+        hint);
+    return given;
+}
+
 std::vector<ComponentEntry> read_components(const ModelReader& reader, const Item& table)
 {
     std::vector<ComponentEntry> out;
@@ -225,11 +321,66 @@ std::vector<ComponentEntry> read_components(const ModelReader& reader, const Ite
     return out;
 }
 
-void append_entries(std::vector<NamedTree>& list, const Excerpt& key, const ArrayValue& value)
+void append_entries(std::vector<NamedTree>& list, const NamedTree& named, const ArrayValue& value)
 {
-    const SourceRange where = key.range(0, key.text.size());
     for (std::size_t k = 0; k < value.entries.size(); ++k)
-        list.push_back(NamedTree{entry_name(key.text, value.shape, k), value.entries[k], where});
+        list.push_back({entry_name(named.name, value.shape, k), value.entries[k], named.where});
+}
+
+void refuse_inputs_in(const Model& model, const std::vector<NamedTree>& invariants)
+{
+    const std::vector<Symbol> inputs = symbols_of(model, Role::input);
+    for (const NamedTree& invariant : invariants)
+        for (const std::string& used : names_in(invariant.value))
+            if (index_of(inputs, used) < inputs.size())
+                throw ModelError(fmt::format("the invariant '{}' depends on the input '{}', which may change as it "
+                                             "likes along a motion",
+                                             invariant.name, used),
+                                 invariant.where, "an observable may use it");
+}
+
+void build_scopes(ModelReader& reader)
+{
+    Model& model = reader.model;
+    Scope& scope = model.scope;
+    scope.declare("t", {});
+    list_parameters_last(scope, model);
+    const Roles fibre = has_constraints_alone(reader) ? Roles() : Role::fibre; // they are some of the ambient ones
+    add_to_scope(scope, model, Role::parameter | Role::base | fibre | Role::ambient);
+    for (const Definition& definition : model.definitions) scope.define(definition);
+    for (const NamedTree& casimir : reader.casimirs) scope.define({casimir.name, {}, casimir.value, casimir.where});
+    declare_arrows(reader);
+    explain_arrows(scope, model);
+    explain_observed(scope, model);
+    read_algebroid(reader);
+    explain_prolongation(scope, model.algebroid);
+    reader.rates = coordinate_rates(model);
+
+    std::set<std::string> used(reader.names.order().begin(), reader.names.order().end());
+    std::vector<std::string> extra;
+    const auto fresh = [&used](const std::string& name) { return used.insert(name).second; };
+    std::vector<std::string> quantities{"energy", "hamiltonian"};
+    if (is_nonholonomic(model)) quantities.emplace_back("moving_energy");
+    for (const std::string& quantity : quantities)
+        if (fresh(quantity)) extra.push_back(quantity);
+    const bool lagrangian = fresh("lagrangian");
+    if (lagrangian && !reader.lagrangian) extra.push_back("lagrangian");
+    reader.mechanical = scope;
+    add_to_scope(reader.mechanical, model, Role::momentum | Role::control | Role::input | Role::state);
+    reader.observer = reader.mechanical.with(extra);
+    for (const std::string& quantity : extra) reader.observer.define({rate_name(quantity), {}, nullptr, {}});
+    explain_rates(reader.observer, reader.rates);
+    if (lagrangian && reader.lagrangian) {
+        reader.observer.define(Definition{"lagrangian", {}, reader.lagrangian, model.lagrangian_where});
+    }
+    define_cost(reader);
+    for (const NamedTree& each : reader.observables)
+        if (reader.names.find(each.name)->role == Role::observable)
+            reader.observer.define({each.name, {}, each.value, each.where});
+    for (const NamedTree& each : reader.invariants)
+        if (fresh(each.name)) reader.observer.define({each.name, {}, each.value, each.where});
+    build_arrows(reader);
+    if (!reader.is_probe) require_sound_definitions(reader);
 }
 
 } // namespace lagen

@@ -24,9 +24,49 @@ using Place = const SourceRange&;
                        comma_list(std::vector<std::string>(known.begin(), known.begin() + longest_list)));
 }
 
+/// A sentence with places for texts, and the hint that ends it unless another is given.
+template <class... Parts>
+struct Complaint {
+    const char* sentence;
+    const char* usual_hint = "";
+
+    ModelError operator()(Parts... parts, Place where, Text hint) const
+    {
+        return {fmt::format(fmt::runtime(sentence), parts...), where, hint};
+    }
+    ModelError operator()(Parts... parts, Place where) const { return (*this)(parts..., where, usual_hint); }
+};
+
+using OfOne = Complaint<Text>;
+using OfTwo = Complaint<Text, Text>;
+using OfThree = Complaint<Text, Text, Text>;
+
+inline constexpr const char* keep_one = "keep one of them";
+inline constexpr OfTwo has_no{"{} has no key '{}'"};
+inline constexpr OfTwo has_neither{"{} has neither '{}'"};
+inline constexpr OfThree both{"{} gives both '{}' and '{}'", keep_one};
+inline constexpr OfTwo takes_no{"{} takes no '{}'"};
+inline constexpr OfTwo beside{"{} stands beside {}"}; // what the model is
+inline constexpr OfTwo needs{"{} needs {}"};
+inline constexpr OfOne twice{"{} is given twice", keep_one};
+inline constexpr OfThree twice_by{"{} is given twice: by '{}' and by '{}'", keep_one}; // a family's name and an entry
+inline constexpr OfTwo names_twice{"{} names '{}' twice", keep_one};
+inline constexpr OfThree names_no{"{} names '{}', which is no {}"};
+inline constexpr OfTwo leaves_out{"{} leaves out {}"};
+inline constexpr OfTwo may_not_depend{"{} may not depend on {}"};
+inline constexpr OfOne like_itself{"{} is like itself, through 'like'"};
+inline constexpr Complaint<Text, std::size_t, Text, std::size_t> too_many{"{} has {} {}, more than {}"};
+
 inline ModelError unknown_key(Text key, Text title, Place where, const std::vector<std::string>& known)
 {
     return {fmt::format("unknown key '{}' in {}", key, title), where, hint_for(key, known, "keys")};
+}
+
+inline ModelError unknown_word(Text what, Text word, Place where, const std::vector<std::string>& known,
+                               const char* noun)
+{
+    return {fmt::format("{} is {}, which is none of the {}", what, quote(word), noun), where,
+            hint_for(word, known, noun)};
 }
 
 /// A value of another kind, shape or number.
@@ -42,82 +82,11 @@ ModelError wrong_number(Text things, std::size_t found, Text who, const Wanted& 
     return {fmt::format("the number of {} is {}, where {} needs {}", things, found, who, wanted), where, hint};
 }
 
-inline ModelError unknown_word(Text what, Text word, Place where, const std::vector<std::string>& known,
-                               const char* noun)
-{
-    return {fmt::format("{} is {}, which is none of the {}", what, quote(word), noun), where,
-            hint_for(word, known, noun)};
-}
-
 /// One key, or all of several of which one is wanted.
 inline ModelError missing(Text owner, const std::vector<std::string>& keys, Place where, Text hint = {})
 {
-    return {keys.size() == 1 ? fmt::format("{} has no key '{}'", owner, keys[0])
-                             : fmt::format("{} has neither '{}'", owner, fmt::join(keys, "' nor '")),
-            where, hint};
-}
-
-inline ModelError both(Text owner, Text a, Text b, Place where)
-{
-    return {fmt::format("{} gives both '{}' and '{}'", owner, a, b), where, "keep one of them"};
-}
-
-inline ModelError takes_no(Text owner, Text key, Place where, Text hint = {})
-{
-    return {fmt::format("{} takes no '{}'", owner, key), where, hint};
-}
-
-/// A block that does not go with what the model is.
-inline ModelError beside(Text what, Text other, Place where, Text hint)
-{
-    return {fmt::format("{} stands beside {}", what, other), where, hint};
-}
-
-/// A block or value without what it is about.
-inline ModelError needs(Text what, Text needed, Place where, Text hint = {})
-{
-    return {fmt::format("{} needs {}", what, needed), where, hint};
-}
-
-inline ModelError twice(Text what, Place where, Text hint = "keep one of them")
-{
-    return {fmt::format("{} is given twice", what), where, hint};
-}
-
-/// By two keys: a family's name and an entry.
-inline ModelError twice(Text what, Text first, Text second, Place where)
-{
-    return {fmt::format("{} is given twice: by '{}' and by '{}'", what, first, second), where, "keep one of them"};
-}
-
-inline ModelError names_twice(Text owner, Text name, Place where, Text hint = "keep one of them")
-{
-    return {fmt::format("{} names '{}' twice", owner, name), where, hint};
-}
-
-inline ModelError names_no(Text owner, Text name, Text noun, Place where, Text hint)
-{
-    return {fmt::format("{} names '{}', which is no {}", owner, name, noun), where, hint};
-}
-
-inline ModelError leaves_out(Text owner, Text what, Place where, Text hint = {})
-{
-    return {fmt::format("{} leaves out {}", owner, what), where, hint};
-}
-
-inline ModelError too_many(Text what, std::size_t count, Text things, std::size_t most, Place where)
-{
-    return {fmt::format("{} has {} {}, more than {}", what, count, things, most), where};
-}
-
-inline ModelError may_not_depend(Text what, Text other, Place where, Text hint)
-{
-    return {fmt::format("{} may not depend on {}", what, other), where, hint};
-}
-
-inline ModelError like_itself(Text what, Place where)
-{
-    return {fmt::format("{} is like itself, through 'like'", what), where};
+    return keys.size() == 1 ? has_no(owner, keys[0], where, hint)
+                            : has_neither(owner, fmt::format("{}", fmt::join(keys, "' nor '")), where, hint);
 }
 
 } // namespace lagen::complain

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <numeric>
 
 namespace lagen {
 
@@ -31,13 +32,10 @@ std::size_t read_index(const std::string& text, std::size_t begin, std::size_t e
     constexpr std::size_t most_digits = 6;
     while (begin < end && text[begin] == ' ') ++begin;
     while (end > begin && text[end - 1] == ' ') --end;
-    if (begin == end || end - begin > most_digits || text[begin] == '0') return 0;
-    std::size_t value = 0;
-    for (; begin < end; ++begin) {
-        if (text[begin] < '0' || text[begin] > '9') return 0;
-        value = 10 * value + static_cast<std::size_t>(text[begin] - '0');
-    }
-    return value;
+    const std::string digits = text.substr(begin, end - begin);
+    const bool is_number = !digits.empty() && digits.size() <= most_digits && digits[0] != '0' &&
+                           digits.find_first_not_of("0123456789") == std::string::npos;
+    return is_number ? std::stoul(digits) : 0;
 }
 
 std::optional<EntryName> split_entry(const std::string& name)
@@ -52,13 +50,6 @@ std::optional<EntryName> split_entry(const std::string& name)
     if (comma != std::string::npos) entry.column = read_index(name, comma + 1, close);
     const bool complete = entry.row > 0 && (comma == std::string::npos || entry.column > 0);
     return complete ? std::optional(std::move(entry)) : std::nullopt;
-}
-
-std::vector<std::size_t> numbers_from(std::size_t first, std::size_t count)
-{
-    std::vector<std::size_t> out(count);
-    for (std::size_t k = 0; k < count; ++k) out[k] = first + k;
-    return out;
 }
 
 /// The entries of one family that stand together from number `first` on; the shape is that of the last of them.
@@ -95,8 +86,24 @@ bool is_whole(const std::vector<Symbol>& symbols, std::size_t first, const Run& 
 [[noreturn]] void refuse_key(const std::vector<Symbol>& symbols, const Excerpt& key, const std::string& owner,
                              const char* noun, const std::string& spelled, const ModelReader::Hint& hint)
 {
-    throw complain::names_no(owner, key.text, noun, key.range(0, key.text.size()),
+    throw complain::names_no(owner, key.text, noun, place_of(key),
                              hint ? hint(key.text) : hint_for_key(symbols, spelled, fmt::format("{}s", noun).c_str()));
+}
+
+void append_symbol(Model& model, const Symbol& symbol, Role role)
+{
+    switch (role) {
+    case Role::parameter: model.parameters.push_back(Parameter{symbol, nullptr}); break;
+    case Role::base: model.base.coordinates.push_back(symbol); break;
+    case Role::fibre: model.fibre.coordinates.push_back(symbol); break;
+    case Role::ambient: break;
+    case Role::control: model.control->controls.push_back(symbol); break;
+    case Role::state: model.states.push_back(FirstOrderState{symbol, nullptr, 0}); break;
+    case Role::input: model.inputs.push_back(Input{symbol, nullptr}); break;
+    case Role::element: model.groupoid->element.push_back(symbol); break;
+    case Role::next: model.groupoid->next.push_back(symbol); break;
+    default: model.fibre.momenta.push_back(symbol); break;
+    }
 }
 
 } // namespace
@@ -109,8 +116,10 @@ std::optional<ResolvedKey> resolve_key(const std::vector<Symbol>& symbols, const
         if (symbols[k].name == wanted) return ResolvedKey{wanted, {}, {k}};
         if (entry || !symbols[k].name.starts_with(wanted + "[")) continue;
         const std::optional<Run> run = run_at(symbols, k);
-        if (run && run->name == wanted && is_whole(symbols, k, *run))
-            return ResolvedKey{wanted, run->shape, numbers_from(k, run->count)};
+        if (!run || run->name != wanted || !is_whole(symbols, k, *run)) continue;
+        ResolvedKey family{wanted, run->shape, std::vector<std::size_t>(run->count)};
+        std::iota(family.indices.begin(), family.indices.end(), k);
+        return family;
     }
     return std::nullopt;
 }
@@ -128,7 +137,7 @@ std::size_t require_entry(const std::vector<Symbol>& symbols, const Excerpt& key
 {
     const ResolvedKey found = require_key(symbols, key, owner, noun, scope);
     if (found.shape.rank != Rank::scalar)
-        throw complain::names_no(owner, found.name, fmt::format("single {}", noun), key.range(0, key.text.size()),
+        throw complain::names_no(owner, found.name, fmt::format("single {}", noun), place_of(key),
                                  fmt::format("for example \"{}\"", symbols[found.indices[0]].name));
     return found.indices[0];
 }
@@ -207,11 +216,10 @@ std::vector<SymbolGroup> group_symbols(const std::vector<Symbol>& symbols)
     std::vector<SymbolGroup> out;
     for (std::size_t k = 0; k < symbols.size(); k += out.back().shape.size()) {
         const std::optional<Run> run = run_at(symbols, k);
-        if (run && !is_whole(symbols, k, *run)) {
+        if (run && !is_whole(symbols, k, *run))
             throw ModelError(fmt::format("'{}' would be an entry of the family '{}' without all the others",
                                          symbols[k].name, run->name),
                              symbols[k].where, "name the coordinates: [fibre] coordinates = [..]");
-        }
         out.push_back(run ? SymbolGroup{run->name, run->shape, k} : SymbolGroup{symbols[k].name, {}, k});
     }
     return out;
@@ -226,84 +234,19 @@ std::vector<Tree> fit_values(const ArrayValue& value, const Shape& wanted, const
                            wanted.rank == Rank::scalar ? scalar_hint : "one number stands for all entries");
 }
 
-std::vector<Excerpt> sides_of(const Excerpt& key)
-{
-    std::vector<Excerpt> out;
-    std::size_t begin = 0;
-    int depth = 0;
-    for (std::size_t k = 0; k <= key.text.size(); ++k) {
-        const char c = k < key.text.size() ? key.text[k] : ',';
-        if (c == '[') ++depth;
-        if (c == ']') --depth;
-        if (c != ',' || (depth > 0 && k < key.text.size())) continue;
-        out.push_back(trimmed(key, begin, k));
-        begin = k + 1;
-    }
-    return out;
-}
-
-namespace {
-
-FamilyRole family_role(Role role)
-{
-    switch (role) {
-    case Role::parameter: return FamilyRole::parameter;
-    case Role::base: return FamilyRole::base;
-    case Role::fibre: return FamilyRole::fibre;
-    case Role::ambient: return FamilyRole::ambient;
-    case Role::momentum: return FamilyRole::momentum;
-    case Role::control: return FamilyRole::control;
-    case Role::state: return FamilyRole::state;
-    case Role::input: return FamilyRole::input;
-    case Role::element: return FamilyRole::element;
-    case Role::next: return FamilyRole::next;
-    default: throw InternalError("a family of a role that has none");
-    }
-}
-
-/// The number of symbols that play this role so far.
-std::size_t count_of(const Model& model, Role role)
-{
-    switch (role) {
-    case Role::parameter: return model.parameters.size();
-    case Role::base: return model.base.coordinates.size();
-    case Role::fibre: return model.fibre.coordinates.size();
-    case Role::ambient: return 0; // they stand in the block of the inner algebroid
-    case Role::control: return model.control ? model.control->controls.size() : 0;
-    case Role::state: return model.states.size();
-    case Role::input: return model.inputs.size();
-    case Role::element: return model.groupoid->element.size();
-    case Role::next: return model.groupoid->next.size();
-    default: return model.fibre.momenta.size();
-    }
-}
-
-void append_symbol(Model& model, const Symbol& symbol, Role role)
-{
-    switch (role) {
-    case Role::parameter: model.parameters.push_back(Parameter{symbol, nullptr}); break;
-    case Role::base: model.base.coordinates.push_back(symbol); break;
-    case Role::fibre: model.fibre.coordinates.push_back(symbol); break;
-    case Role::ambient: break;
-    case Role::control: model.control->controls.push_back(symbol); break;
-    case Role::state: model.states.push_back(FirstOrderState{symbol, nullptr, 0}); break;
-    case Role::input: model.inputs.push_back(Input{symbol, nullptr}); break;
-    case Role::element: model.groupoid->element.push_back(symbol); break;
-    case Role::next: model.groupoid->next.push_back(symbol); break;
-    default: model.fibre.momenta.push_back(symbol); break;
-    }
-}
-
-} // namespace
-
 DeclaredKey read_declaration(const ModelReader& reader, const Excerpt& key)
 {
-    const SourceRange where = key.range(0, key.text.size());
-    if (!has_bracket(key.text)) return {key.text, {}, {Symbol{key.text, where, {}, {}, {}}}};
+    const SourceRange where = place_of(key);
+    if (!has_bracket(key.text)) return {key.text, {}, symbols_called(key.text, {}, where)};
     const FamilyDeclaration family = parse_family(key);
-    DeclaredKey out{family.name, close_shape(family, reader.model.scope), {}};
-    for (std::size_t k = 0; k < out.shape.size(); ++k)
-        out.symbols.push_back(Symbol{entry_name(out.name, out.shape, k), where, {}, {}, {}});
+    const Shape shape = close_shape(family, reader.model.scope);
+    return {family.name, shape, symbols_called(family.name, shape, where)};
+}
+
+std::vector<Symbol> symbols_called(const std::string& name, const Shape& shape, const SourceRange& where)
+{
+    std::vector<Symbol> out;
+    for (std::size_t k = 0; k < shape.size(); ++k) out.push_back(Symbol{entry_name(name, shape, k), where, {}, {}, {}});
     return out;
 }
 
@@ -317,31 +260,13 @@ const char* option_of(const Setting& setting)
     return setting.binds ? "<--bind>" : "<--set>";
 }
 
-namespace {
-
-template <class Records>
-std::vector<Symbol> symbols_of(const Records& records)
+std::vector<Symbol> symbols_of(const Model& model, Roles roles)
 {
     std::vector<Symbol> out;
-    for (const auto& each : records) out.push_back(each.symbol);
+    for_each_symbol(model, [&](Role role, const Symbol& symbol) {
+        if (roles.has(role)) out.push_back(symbol);
+    });
     return out;
-}
-
-} // namespace
-
-std::vector<Symbol> parameter_symbols(const Model& model)
-{
-    return symbols_of(model.parameters);
-}
-
-std::vector<Symbol> state_symbols(const Model& model)
-{
-    return symbols_of(model.states);
-}
-
-std::vector<Symbol> input_symbols(const Model& model)
-{
-    return symbols_of(model.inputs);
 }
 
 std::vector<Symbol> free_parameters(const Model& model)
@@ -361,7 +286,8 @@ bool has_own_step(const Model& model)
 
 void declare_symbols(ModelReader& reader, const std::vector<Symbol>& symbols, Role role)
 {
-    const std::size_t first = count_of(reader.model, role);
+    // Ambient coordinates stand in the block of the inner algebroid already.
+    const std::size_t first = role == Role::ambient ? 0 : symbols_of(reader.model, role).size();
     for (const SymbolGroup& group : group_symbols(symbols)) {
         const SourceRange& where = symbols[group.first].where;
         if (group.shape.rank == Rank::scalar) {
@@ -369,7 +295,7 @@ void declare_symbols(ModelReader& reader, const std::vector<Symbol>& symbols, Ro
             continue;
         }
         reader.names.declare_family(group.name, group.shape, role, where);
-        reader.model.families.push_back(Family{group.name, family_role(role), group.shape, first + group.first, where});
+        reader.model.families.push_back(Family{group.name, role, group.shape, first + group.first, where});
     }
     for (const Symbol& symbol : symbols) append_symbol(reader.model, symbol, role);
 }
@@ -401,22 +327,18 @@ bool is_plain_zero(const Tree& tree)
     return tree->kind == TreeKind::number && tree->number == 0;
 }
 
-void add_to_scope(Scope& scope, const Model& model, const std::vector<Symbol>& symbols, FamilyRole role)
+void add_to_scope(Scope& scope, const Model& model, Roles roles)
 {
-    const auto family_at = [&](std::size_t k) {
-        return std::find_if(model.families.begin(), model.families.end(),
-                            [&](const Family& each) { return each.role == role && each.first == k; });
-    };
-    for (std::size_t k = 0; k < symbols.size();) {
-        const auto family = family_at(k);
-        if (family == model.families.end()) {
-            scope.declare(symbols[k].name, symbols[k].where);
-            ++k;
-        } else {
-            scope.declare_family(family->name, family->shape, family->where);
-            k += family->shape.size();
-        }
-    }
+    for_each_symbol(model, [&](Role role, const Symbol& symbol) {
+        if (!roles.has(role)) return;
+        const std::string name = family_name(symbol.name);
+        const auto family = std::ranges::find_if(
+            model.families, [&](const Family& each) { return each.role == role && each.name == name; });
+        if (family == model.families.end())
+            scope.declare(symbol.name, symbol.where);
+        else if (symbol.name == entry_name(name, family->shape, 0))
+            scope.declare_family(name, family->shape, family->where);
+    });
 }
 
 } // namespace lagen

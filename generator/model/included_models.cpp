@@ -4,13 +4,12 @@
 /// a Hamiltonian nor a control problem of its own. A frame e'_a = A_a^b e_b pulls all of them back: L' = L and R' = R
 /// at y^b = A_a^b y'^a, Q'_a = A_a^b Q_b. Hamiltonians and control problems of files are left where they are: their
 /// momenta and their sigma would need the inverse of A.
-#include "model/algebroid_draft.hpp"
-
 #include "expression/find_part.hpp"
 #include "expression/rewrite.hpp"
+#include "model/algebroid_draft.hpp"
 #include "model/complaints.hpp"
 #include "model/families.hpp"
-#include "model/read_file.hpp"
+#include "model/read_values.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -44,75 +43,11 @@ void require_no_cycle(const IncludeTrail& trail, const std::string& identity, co
         where, "a file may not be part of itself");
 }
 
-/// Bytes of a file that must be there; messages point at the text that names it.
-std::string content_of(const fs::path& path, const SourceRange& where)
-{
-    std::error_code error;
-    if (fs::exists(path, error) && !fs::is_regular_file(path, error) && !fs::is_directory(path, error)) {
-        throw ModelError(fmt::format("{} is not a regular file", quote(path.string())), where);
-    }
-    try {
-        return read_file(path.string());
-    } catch (const ModelError& failure) {
-        throw ModelError(failure.diagnostic().message, where, "'of' is relative to the file that it stands in");
-    }
-}
-
-/// Settings of the command line and sizes of the including model that the file has as sizes of its own.
-std::vector<Setting> size_settings(const ModelReader& reader, const std::shared_ptr<const SourceFile>& file)
-{
-    std::vector<Setting> out;
-    const TomlValue document = parse_toml(file);
-    const auto sizes = std::ranges::find(document.entries, "sizes", &TomlEntry::name);
-    if (sizes == document.entries.end()) return out;
-    for (const TomlEntry& size : sizes->value.entries) {
-        for (const Size& outer : reader.model.sizes)
-            if (outer.name == size.name())
-                out.push_back({outer.name, whole_text("<sizes>", std::to_string(outer.value))});
-        for (const Setting& setting : *reader.settings)
-            if (setting.name == size.name()) out.push_back(setting);
-    }
-    return out;
-}
-
 void list_once(std::vector<std::shared_ptr<const SourceFile>>& files, const std::shared_ptr<const SourceFile>& file)
 {
     const auto same = [&](const auto& each) { return each->name == file->name; };
     if (std::ranges::none_of(files, same)) files.push_back(file);
 }
-
-} // namespace
-
-std::size_t include_model(ModelReader& reader, const TomlValue& of)
-{
-    const fs::path name = of.text.text;
-    if (name.empty()) throw ModelError("'of' names no file", of.where);
-    const fs::path path = (fs::path(reader.model.file->name).parent_path() / name).lexically_normal();
-    IncludeTrail& trail = *reader.trail;
-    if (trail.open.empty()) trail.open.push_back(identity_of(reader.model.file->name));
-    const std::string identity = identity_of(path);
-    require_no_cycle(trail, identity, of.where);
-    if (++trail.read > most_files) {
-        throw complain::too_many("the model", trail.read, "included files", most_files, of.where);
-    }
-    auto file = std::make_shared<const SourceFile>(SourceFile{path.string(), content_of(path, of.where)});
-    trail.open.push_back(identity);
-    IncludedModel included;
-    included.of = &of;
-    included.model = read_model_text(file->name, file->text, size_settings(reader, file), trail);
-    trail.open.pop_back();
-    const Scope& scope = included.model.scope;
-    const auto is_pi = [](const Definition& definition) { return definition.name == "pi"; };
-    const bool has_pi = scope.has_symbol("pi") || scope.find_family("pi") || scope.find_size("pi").has_value() ||
-                        std::ranges::any_of(included.model.definitions, is_pi);
-    if (!has_pi) included.renamed.emplace("pi", constant_pi()); // whatever the including model calls pi
-    list_once(reader.model.included, included.model.file);
-    for (const auto& each : included.model.included) list_once(reader.model.included, each);
-    reader.included.push_back(std::move(included));
-    return reader.included.size() - 1;
-}
-
-namespace {
 
 /// Where a parameter got its value from, so far.
 using Owners = std::map<std::string, const IncludedModel*>;
@@ -132,7 +67,8 @@ void merge_parameters(ModelReader& reader, const IncludedModel& included, Owners
             continue;
         }
         const std::vector<Parameter>& others = owner->second->model.parameters;
-        const auto other = std::ranges::find_if(others, [&](const Parameter& p) { return p.symbol.name == name; });
+        const auto other = std::ranges::find(
+            others, name, [](const Parameter& each) -> const std::string& { return each.symbol.name; });
         if (same_tree(other->value, parameter.value)) continue;
         throw ModelError(fmt::format("the parameter '{}' is {} in {} and {} in {}", name, to_text(other->value),
                                      owner->second->model.file->name, to_text(parameter.value),
@@ -149,20 +85,12 @@ void merge_parameters(ModelReader& reader, const IncludedModel& included, Owners
 void merge_sizes(ModelReader& reader, const IncludedModel& included)
 {
     for (const Size& size : included.model.sizes) {
-        const auto same = [&](const Size& each) { return each.name == size.name; };
-        if (std::ranges::any_of(reader.model.sizes, same)) continue; // it has the same value: see include_model
+        std::vector<Size>& sizes = reader.model.sizes;
+        if (std::ranges::find(sizes, size.name, &Size::name) != sizes.end()) continue; // of the same value: it was set
         reader.names.declare(size.name, Role::size, size.where);
         reader.model.sizes.push_back(size);
         reader.model.scope.declare_size(size.name, size.value, size.where);
     }
-}
-
-/// A key as if it had been read at `where`.
-Excerpt excerpt_of(const std::string& text, const SourceRange& where)
-{
-    Excerpt out{where.file, text, {}};
-    for (std::size_t k = 0; k <= text.size(); ++k) out.origin.push_back(std::min(where.begin + k, where.end));
-    return out;
 }
 
 /// The Casimirs of factors may bear one name: the second is name_2.
@@ -187,7 +115,7 @@ void merge_base(ModelReader& reader, const IncludedModel& included)
     for (const NamedTree& casimir : from.casimirs) {
         const std::string name = fresh_name(reader.names, casimir.name);
         reader.names.declare(name, Role::casimir, casimir.where);
-        reader.casimirs.emplace_back(excerpt_of(name, casimir.where), replace_names(casimir.value, included.renamed));
+        reader.casimirs.push_back({name, replace_names(casimir.value, included.renamed), casimir.where});
     }
     for (std::size_t i = 0; i < from.coordinates.size(); ++i) { // [about] of the file, where the model has none
         Symbol& symbol = to.coordinates[included.base[i]];
@@ -195,38 +123,19 @@ void merge_base(ModelReader& reader, const IncludedModel& included)
     }
 }
 
-bool same_definition(const Definition& a, const Definition& b)
+/// `hidden`, and the names of the definitions that use one of them, directly or through others.
+std::set<std::string> with_users(std::set<std::string> hidden, const std::vector<Definition>& definitions)
 {
-    return a.parameters == b.parameters && same_tree(a.body, b.body);
-}
-
-/// Every name and function that a tree mentions.
-std::set<std::string> mentioned_in(const Tree& tree)
-{
-    std::set<std::string> names;
-    for_each_part(tree, [&](const Tree& part) {
-        if (part->kind == TreeKind::name || part->kind == TreeKind::apply) names.insert(family_name(part->name));
-    });
-    return names;
-}
-
-/// Names of definitions that use one of `hidden`, directly or through others.
-std::set<std::string> definitions_using(const std::vector<Definition>& definitions, std::set<std::string> hidden)
-{
-    std::vector<std::set<std::string>> mentioned;
-    for (const Definition& each : definitions) mentioned.push_back(mentioned_in(each.body));
-    std::set<std::string> using_hidden;
-    for (bool grown = true; grown;) {
-        grown = false;
-        for (std::size_t k = 0; k < definitions.size(); ++k) {
-            const auto is_hidden = [&](const std::string& name) { return hidden.contains(name); };
-            if (hidden.contains(definitions[k].name) || std::ranges::none_of(mentioned[k], is_hidden)) continue;
-            using_hidden.insert(definitions[k].name);
-            hidden.insert(definitions[k].name);
-            grown = true;
-        }
+    const auto is_hidden = [&](const Tree& part) {
+        const bool named = part->kind == TreeKind::name || part->kind == TreeKind::apply;
+        return named && hidden.contains(family_name(part->name));
+    };
+    for (std::size_t before = hidden.size() + 1; before != hidden.size();) {
+        before = hidden.size();
+        for (const Definition& each : definitions)
+            if (any_part(each.body, is_hidden)) hidden.insert(each.name);
     }
-    return using_hidden;
+    return hidden;
 }
 
 /// `renamed` with the families whose entries are renamed, and without the parameters of `definition`.
@@ -262,9 +171,9 @@ void define_inherited(ModelReader& reader, const IncludedModel& included, const 
     }
     own.body = replace_names(definition.body, replacements);
     std::vector<Definition>& all = reader.model.definitions;
-    const auto other = std::ranges::find_if(all, [&](const Definition& each) { return each.name == own.name; });
+    const auto other = std::ranges::find(all, own.name, &Definition::name);
     if (other != all.end() && other->where.file != reader.model.file) {
-        if (same_definition(*other, own)) return;
+        if (other->parameters == own.parameters && same_tree(other->body, own.body)) return;
         throw ModelError(fmt::format("the definition '{}' of {} differs from that of {}", own.name,
                                      included.model.file->name, other->where.file->name),
                          included.of->where, "rename one of them in its file");
@@ -274,7 +183,93 @@ void define_inherited(ModelReader& reader, const IncludedModel& included, const 
     all.push_back(std::move(own));
 }
 
+Tree in_model(const IncludedModel& included, const Tree& tree)
+{
+    std::map<std::string, Tree> replacements = included.velocities;
+    replacements.insert(included.renamed.begin(), included.renamed.end());
+    return replace_names(tree, replacements);
+}
+
+/// The files below `draft` that L can come from. A prolongation has no use for one: there it would be a function on the
+/// base.
+void append_files(std::vector<const IncludedModel*>& files, bool& complete, const ModelReader& reader,
+                  const AlgebroidDraft& draft)
+{
+    if (!draft.kind) {
+        files.push_back(&reader.included[draft.included]);
+        return;
+    }
+    if (*draft.kind == AlgebroidKind::prolongation || draft.of.empty()) complete = false;
+    for (const AlgebroidDraft& inner : draft.of) append_files(files, complete, reader, inner);
+}
+
+/// Q_a of a block, null where it is zero.
+std::vector<Tree> forces_of(const ModelReader& reader, const AlgebroidDraft& draft, const AlgebroidBlock& block)
+{
+    if (block.kind == AlgebroidKind::nonholonomic) return forces_of(reader, draft.of[0], block.of[0]);
+    std::vector<Tree> forces(block.fibre.size());
+    if (!draft.kind) {
+        const IncludedModel& included = reader.included[draft.included];
+        for (const ComponentEntry& force : included.model.forces)
+            forces[force.section] = in_model(included, force.value);
+    } else if (block.kind == AlgebroidKind::product) {
+        auto next = forces.begin();
+        for (std::size_t k = 0; k < block.of.size(); ++k)
+            for (Tree& force : forces_of(reader, draft.of[k], block.of[k])) *next++ = std::move(force);
+    } else if (block.kind == AlgebroidKind::frame) {
+        const std::vector<Tree> inner = forces_of(reader, draft.of[0], block.of[0]);
+        std::vector<std::vector<Tree>> terms(forces.size());
+        for (const SectionEntry& entry : block.sections)
+            if (inner[entry.inner]) terms[entry.section].push_back(product_of(entry.value, inner[entry.inner]));
+        for (std::size_t a = 0; a < forces.size(); ++a) forces[a] = terms[a].empty() ? nullptr : sum_of(terms[a]);
+    }
+    return forces;
+}
+
+/// Forces do not come without the inputs in them and the states that they follow from.
+void refuse_lost(const IncludedModel& file, const std::vector<Symbol>& symbols, const char* noun, const char* block)
+{
+    for (const ComponentEntry& force : file.model.forces)
+        for (const std::string& name : names_in(force.value))
+            if (index_of(symbols, name) < symbols.size())
+                throw ModelError(fmt::format("the forces of '{}' depend on its {} '{}', and {} do not come with the "
+                                             "forces of a file",
+                                             file.model.file->name, noun, name, block),
+                                 file.of->where, fmt::format("give this model {} and [forces] of its own", block));
+}
+
 } // namespace
+
+std::size_t include_model(ModelReader& reader, const TomlValue& of)
+{
+    IncludeTrail& trail = *reader.trail;
+    if (trail.open.empty()) trail.open.push_back(identity_of(reader.model.file->name));
+    const std::shared_ptr<const SourceFile> file = file_named(of, "'of'");
+    require_no_cycle(trail, identity_of(file->name), of.where);
+    if (++trail.read > most_files)
+        throw complain::too_many("the model", trail.read, "included files", most_files, of.where);
+    std::vector<Setting> sizes; // where the file has them: those of this model, then those of the command line
+    for (const Size& size : reader.model.sizes)
+        sizes.push_back({size.name, whole_text("<sizes>", std::to_string(size.value)), false, true});
+    for (Setting setting : *reader.settings) {
+        setting.sizes_alone = true;
+        sizes.push_back(std::move(setting));
+    }
+    trail.open.push_back(identity_of(file->name));
+    IncludedModel included;
+    included.of = &of;
+    included.model = read_model_text(file->name, file->text, sizes, trail);
+    trail.open.pop_back();
+    const Scope& scope = included.model.scope;
+    const auto is_pi = [](const Definition& definition) { return definition.name == "pi"; };
+    const bool has_pi = scope.has_symbol("pi") || scope.find_family("pi") || scope.find_size("pi").has_value() ||
+                        std::ranges::any_of(included.model.definitions, is_pi);
+    if (!has_pi) included.renamed.emplace("pi", constant_pi()); // whatever the including model calls pi
+    list_once(reader.model.included, included.model.file);
+    for (const auto& each : included.model.included) list_once(reader.model.included, each);
+    reader.included.push_back(std::move(included));
+    return reader.included.size() - 1;
+}
 
 void merge_included(ModelReader& reader)
 {
@@ -308,75 +303,11 @@ void inherit_definitions(ModelReader& reader)
             for (const std::string& name : declared_names(included.model.fibre.coordinates)) hidden.insert(name);
             for (const std::string& name : velocity_names(included.model)) hidden.insert(name);
         }
-        const std::set<std::string> dropped = definitions_using(included.model.definitions, hidden);
+        const std::set<std::string> dropped = with_users(std::move(hidden), included.model.definitions);
         for (const Definition& definition : included.model.definitions)
             if (!dropped.contains(definition.name)) define_inherited(reader, included, definition);
     }
 }
-
-namespace {
-
-Tree in_model(const IncludedModel& included, const Tree& tree)
-{
-    std::map<std::string, Tree> replacements = included.velocities;
-    replacements.insert(included.renamed.begin(), included.renamed.end());
-    return replace_names(tree, replacements);
-}
-
-/// The files below `draft` that L can come from. A prolongation has no use for one: there it would be a function on the
-/// base.
-void append_files(std::vector<const IncludedModel*>& files, bool& complete, const ModelReader& reader,
-                  const AlgebroidDraft& draft)
-{
-    if (!draft.kind) {
-        files.push_back(&reader.included[draft.included]);
-        return;
-    }
-    if (*draft.kind == AlgebroidKind::prolongation || draft.of.empty()) complete = false;
-    for (const AlgebroidDraft& inner : draft.of) append_files(files, complete, reader, inner);
-}
-
-Tree sum_or_nothing(const std::vector<Tree>& terms)
-{
-    return terms.empty() ? nullptr : terms.size() == 1 ? terms[0] : add(terms);
-}
-
-/// Q_a of a block, null where it is zero.
-std::vector<Tree> forces_of(const ModelReader& reader, const AlgebroidDraft& draft, const AlgebroidBlock& block)
-{
-    if (block.kind == AlgebroidKind::nonholonomic) return forces_of(reader, draft.of[0], block.of[0]);
-    std::vector<Tree> forces(block.fibre.size());
-    if (!draft.kind) {
-        const IncludedModel& included = reader.included[draft.included];
-        for (const ComponentEntry& force : included.model.forces)
-            forces[force.section] = in_model(included, force.value);
-    } else if (block.kind == AlgebroidKind::product) {
-        auto next = forces.begin();
-        for (std::size_t k = 0; k < block.of.size(); ++k)
-            for (Tree& force : forces_of(reader, draft.of[k], block.of[k])) *next++ = std::move(force);
-    } else if (block.kind == AlgebroidKind::frame) {
-        const std::vector<Tree> inner = forces_of(reader, draft.of[0], block.of[0]);
-        std::vector<std::vector<Tree>> terms(forces.size());
-        for (const SectionEntry& entry : block.sections)
-            if (inner[entry.inner]) terms[entry.section].push_back(product_of(entry.value, inner[entry.inner]));
-        for (std::size_t a = 0; a < forces.size(); ++a) forces[a] = sum_or_nothing(terms[a]);
-    }
-    return forces;
-}
-
-/// Forces do not come without the inputs in them and the states that they follow from.
-void refuse_lost(const IncludedModel& file, const std::vector<Symbol>& symbols, const char* noun, const char* block)
-{
-    for (const ComponentEntry& force : file.model.forces)
-        for (const std::string& name : names_in(force.value))
-            if (index_of(symbols, name) < symbols.size())
-                throw ModelError(fmt::format("the forces of '{}' depend on its {} '{}', and {} do not come with the "
-                                             "forces of a file",
-                                             file.model.file->name, noun, name, block),
-                                 file.of->where, fmt::format("give this model {} and [forces] of its own", block));
-}
-
-} // namespace
 
 void inherit_mechanics(ModelReader& reader)
 {
@@ -392,13 +323,13 @@ void inherit_mechanics(ModelReader& reader)
         if (file->model.dissipation) dissipations.push_back(in_model(*file, file->model.dissipation));
     }
     const SourceRange where = files.front()->of->where;
-    reader.lagrangian = sum_or_nothing(lagrangians);
+    reader.lagrangian = sum_of(lagrangians);
     reader.model.lagrangian_where = where;
-    if (!reader.at("dissipation")) reader.dissipation = sum_or_nothing(dissipations);
+    if (!reader.at("dissipation") && !dissipations.empty()) reader.dissipation = sum_of(dissipations);
     if (reader.at("forces")) return;
     for (const IncludedModel* file : files) {
-        refuse_lost(*file, state_symbols(file->model), "first-order state", "[states]");
-        refuse_lost(*file, input_symbols(file->model), "input", "[inputs]");
+        refuse_lost(*file, symbols_of(file->model, Role::state), "first-order state", "[states]");
+        refuse_lost(*file, symbols_of(file->model, Role::input), "input", "[inputs]");
     }
     const std::vector<Tree> forces = forces_of(reader, *reader.draft, reader.model.algebroid);
     for (std::size_t a = 0; a < forces.size(); ++a)

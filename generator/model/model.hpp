@@ -22,12 +22,12 @@ struct Size {
     SourceRange where;
 };
 
-enum class FamilyRole { parameter, base, fibre, ambient, momentum, control, state, input, element, next };
+enum class Role; // in model/names.hpp
 
 /// A vector or matrix of declared symbols: entries first, first + 1, .. (by rows) of the list of its role.
 struct Family {
     std::string name;
-    FamilyRole role;
+    Role role;
     Shape shape;
     std::size_t first;
     SourceRange where;
@@ -97,6 +97,7 @@ enum class AlgebroidKind {
     prolongation,
     level_set,    ///< TM restricted to the base constraints, in a frame made of them
     nonholonomic, ///< a distribution in the inner algebroid, which need not be one itself
+    first_order,  ///< no algebroid: the base alone, whose coordinates have the rates of [rates]
     groupoid      ///< no [algebroid]: that of the model's groupoid
 };
 
@@ -360,7 +361,8 @@ struct Model {
     std::vector<Definition> definitions; ///< as written, for documentation
     Tree lagrangian;                     ///< closed over t, x, y (Y), parameters; null where absent
     SourceRange lagrangian_where;
-    Tree hamiltonian; ///< closed over t, x, momenta, parameters; null where absent
+    std::vector<Tree> rates; ///< xdot^i(t, x, z, u) of kind first_order, one a base coordinate; else empty
+    Tree hamiltonian;        ///< closed over t, x, momenta, parameters; null where absent
     SourceRange hamiltonian_where;
     std::vector<ComponentEntry> forces; ///< Q_a(t, x, y, z, u): on the right of Lagrange's and of Hamilton's equations
     Tree dissipation;                   ///< Rayleigh's R(t, x, y): Q_a gains -dR/dy^a; null where absent
@@ -394,6 +396,17 @@ struct Model {
 /// The coordinates that L, forces and R are written in: y, or Y of a nonholonomic model, the fibre coordinates of its
 /// ambient algebroid.
 [[nodiscard]] const std::vector<Symbol>& ambient_fibre(const Model& model);
+
+/// The cost of a control problem up to now, J' = cost with J = 0 at the start: a first-order state that lagen adds
+/// behind those of the model, and that a motion carries only where somebody names it.
+inline constexpr const char* total_cost_name = "total_cost";
+
+/// True where state k is that one; one that a model declares itself is not.
+[[nodiscard]] inline bool is_total_cost(const Model& model, std::size_t k)
+{
+    const Symbol& symbol = model.states[k].symbol;
+    return model.control && symbol.name == total_cost_name && symbol.where.file == nullptr;
+}
 
 /// All parameter names, then base, fibre, controls: the names of symbols that a model declares itself, besides momenta.
 [[nodiscard]] std::vector<std::string> symbol_names(const Model& model);

@@ -5,7 +5,6 @@
 
 #include "model/model.hpp"
 #include "model/names.hpp"
-#include "model/rate_names.hpp"
 #include "model/read_model.hpp"
 #include "model/schema.hpp"
 
@@ -30,6 +29,14 @@ struct IncludedModel {
     bool fibre_is_hidden = false;           ///< they are none of the model's names
 };
 
+/// xdot^i = rho^i_a y^a of a base coordinate, or of a family of them.
+struct CoordinateRate {
+    std::string coordinate;
+    std::string rate;     ///< "v_x", or "g3*w2 - g2*w3"
+    bool is_name = false; ///< `rate` is a fibre coordinate, a family of them or a definition
+    std::string momentum; ///< of that fibre coordinate; empty where it is none of the model's
+};
+
 struct AlgebroidDraft;
 
 /// A model in the making.
@@ -43,13 +50,11 @@ struct ModelReader {
     TomlEntry document;
     std::shared_ptr<const AlgebroidDraft> draft;
     std::optional<std::vector<std::size_t>> own_constraints; ///< of a level set: those of [base] that are kept
-    std::vector<IncludedModel> included;               ///< in the order of the file; the same file may stand here twice
-    std::vector<std::pair<Excerpt, Tree>> casimirs;    ///< as parsed
-    std::vector<std::pair<Excerpt, Tree>> observables; ///< as parsed
-    std::vector<std::pair<Excerpt, Tree>> invariants;  ///< as parsed
-    Tree lagrangian, dissipation;                      ///< as parsed; null where absent
-    std::vector<ComponentEntry> inherited_forces;      ///< of included files, over the model's names
-    std::vector<CoordinateRate> rates;                 ///< once the entries of the algebroid are read
+    std::vector<IncludedModel> included; ///< in the order of the file; the same file may stand here twice
+    std::vector<NamedTree> casimirs, observables, invariants; ///< as parsed
+    Tree lagrangian, dissipation;                             ///< as parsed; null where absent
+    std::vector<ComponentEntry> inherited_forces;             ///< of included files, over the model's names
+    std::vector<CoordinateRate> rates;                        ///< once the entries of the algebroid are read
     Scope mechanical; ///< the model's scope with momenta, controls, inputs and first-order states
     Scope observer;   ///< the model's scope with momenta, observables, invariants and built-in quantities
     Scope arrows;     ///< the observer's with the coordinates of an arrow of the groupoid and the step
@@ -62,7 +67,7 @@ struct ModelReader {
     [[nodiscard]] ArrayValue close(const Tree& tree, Roles roles, const std::string& what,
                                    bool nonsmooth = false) const;
     [[nodiscard]] ArrayValue close_in(const Scope& scope, const Tree& tree, Roles roles, const std::string& what,
-                                      bool nonsmooth = false) const;
+                                      bool nonsmooth = false, bool scalar = false) const;
     /// The value of an item over the roles of its row: any, or a scalar.
     [[nodiscard]] ArrayValue array(const Item& item) const;
     [[nodiscard]] Tree scalar(const Item& item) const;
@@ -99,7 +104,13 @@ void declare_groupoid(ModelReader& reader);
 /// The kinds of [algebroid] and its inner tables, their fibres and bases; what included files declare joins the model.
 /// Where there is no such block the algebroid is that of the groupoid.
 void read_algebroid_kind(ModelReader& reader);
-/// The coordinates Y of a nonholonomic model. Throws ModelError for blocks that do not go with it.
+/// How far a model is known: the kind of its algebroid, all that is declared, its functions.
+enum class Known { algebroid, blocks, functions };
+/// Throws ModelError where a block or key breaks a rule that can be judged from this stage on.
+void require_rules(const ModelReader& reader, Known stage);
+/// The first of the sections in whose place a Lie algebra stands; nothing where the algebroid has none.
+[[nodiscard]] std::optional<std::size_t> first_vertical(const Model& model);
+/// The coordinates Y of a nonholonomic model.
 void declare_ambient(ModelReader& reader);
 /// True where a nonholonomic model has `constraints` and no `sections`: its fibre coordinates are some of the Y then.
 [[nodiscard]] bool has_constraints_alone(const ModelReader& reader);
@@ -109,8 +120,6 @@ void declare_ambient(ModelReader& reader);
 [[nodiscard]] LevelSetFrame frame_of_level_set(const ModelReader& reader, const LevelSetRequest& request);
 /// The fibre coordinates are these Y. Throws ModelError.
 void keep_coordinates(ModelReader& reader, const std::vector<Symbol>& names);
-/// Throws ModelError where the model is nonholonomic: it has no such blocks.
-void refuse_nonholonomic(const ModelReader& reader, const Item& block);
 /// Names of the fibre coordinates where [fibre] leaves them out; nothing where the kind has no default.
 [[nodiscard]] std::optional<std::vector<Symbol>> default_fibre(const ModelReader& reader);
 /// Throws ModelError where the fibre has not as many coordinates as the kind of the algebroid requires.
@@ -125,7 +134,6 @@ void define_cost(ModelReader& reader);
 void read_named_group(const ModelReader& reader, GroupoidBlock& block, const Item& item);
 /// The names of [reconstruct].
 void declare_reconstructions(ModelReader& reader);
-/// Refuses blocks of mechanics that do not go together.
 void declare_mechanics(ModelReader& reader);
 /// The step of [discrete] and its scheme; once mechanics is declared.
 void declare_discrete(ModelReader& reader);
@@ -136,6 +144,24 @@ void declare_arrows(ModelReader& reader);
 /// The entries of [algebroid]; called by build_scopes once the model's scope has symbols and definitions. The inner
 /// fibre coordinates of frames and the ambient velocities of subbundles join the scope as definitions.
 void read_algebroid(ModelReader& reader);
+
+// Names that a person may have had for rates, such as xdot, dx or p_x.
+/// Defines what Dt(X) needs in the model's scope: the rates of t, of the parameters and of the base coordinates, closed
+/// over the fibre coordinates (of a nonholonomic model over those of its ambient algebroid). Once the entries of the
+/// algebroid are read. The anchor of a groupoid's action is not known here, and then neither are these.
+void define_rates(ModelReader& reader);
+
+/// The rates that are short enough to be told. The entries of the model's algebroid must have been read.
+[[nodiscard]] std::vector<CoordinateRate> coordinate_rates(const Model& model);
+
+/// The hint for `name` where it is a usual name of a rate, such as xdot; empty where it is none.
+[[nodiscard]] std::string hint_for_rate(const std::string& name, const std::vector<CoordinateRate>& rates);
+
+/// The hint for `name` in a function of momenta, where it is a usual name of a rate or of its momentum, such as p_x.
+[[nodiscard]] std::string hint_for_momentum(const std::string& name, const std::vector<CoordinateRate>& rates);
+
+/// The same where both are legal.
+void explain_rates(Scope& scope, const std::vector<CoordinateRate>& rates);
 
 // Expressions.
 void read_parameters(ModelReader& reader);
@@ -154,11 +180,16 @@ void read_scenes(ModelReader& reader);
 /// The entries of a table by coordinates of the fibre that are not a plain 0.
 [[nodiscard]] std::vector<ComponentEntry> read_components(const ModelReader& reader, const Item& table);
 
+/// The values of a table by names of these.
+[[nodiscard]] std::vector<NamedTree> read_given(const ModelReader& reader, const Item& table,
+                                                const std::vector<Symbol>& symbols, const char* noun,
+                                                const ModelReader::Hint& hint = {});
+
 /// Index of `name` among `symbols`, or symbols.size().
 [[nodiscard]] std::size_t index_of(const std::vector<Symbol>& symbols, const std::string& name);
 [[nodiscard]] std::vector<std::string> names_of(const std::vector<Symbol>& symbols);
 
 /// A named value as one entry of `list`, or one an entry where it is a vector or matrix: name[1], name[2], ..
-void append_entries(std::vector<NamedTree>& list, const Excerpt& key, const ArrayValue& value);
+void append_entries(std::vector<NamedTree>& list, const NamedTree& named, const ArrayValue& value);
 
 } // namespace lagen

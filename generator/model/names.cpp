@@ -56,6 +56,16 @@ std::string shown(const std::string& name)
     return name.size() > longest ? out + "..." : out;
 }
 
+/// Line and column (both from 1, columns in characters) of the start of `where`, as "line 3, column 5".
+std::string place_text(const SourceRange& where)
+{
+    if (!where.file) return "an unknown place";
+    const std::string_view before = std::string_view(where.file->text).substr(0, where.begin);
+    const std::string_view line = before.substr(before.rfind('\n') + 1); // the whole where there is no other
+    return fmt::format("line {}, column {}", 1 + std::ranges::count(before, '\n'),
+                       1 + std::ranges::count_if(line, begins_character));
+}
+
 } // namespace
 
 const char* role_text(Role role)
@@ -68,27 +78,14 @@ std::string role_plural(Role role)
     return role_texts[static_cast<std::size_t>(role)].second;
 }
 
-std::string place_text(const SourceRange& where)
-{
-    if (!where.file) return "an unknown place";
-    const std::string_view before = std::string_view(where.file->text).substr(0, where.begin);
-    const std::string_view line = before.substr(before.rfind('\n') + 1); // the whole where there is no other
-    return fmt::format("line {}, column {}", 1 + std::ranges::count(before, '\n'),
-                       1 + std::ranges::count_if(line, begins_character));
-}
-
 void Names::declare(const std::string& name, Role role, const SourceRange& where)
 {
     constexpr std::size_t most_names = 4096;
     require_identifier(name, where, role == Role::momentum ? "the name of a momentum" : "a name");
-    if (name == "t") {
-        throw ModelError(fmt::format("'t' is the time and cannot be {}", role_text(role)), where,
+    const char* other = name == "t" ? "the time" : is_reserved_name(name) ? "a built-in function" : nullptr;
+    if (other != nullptr)
+        throw ModelError(fmt::format("'{}' is {} and cannot be {}", name, other, role_text(role)), where,
                          "choose another name");
-    }
-    if (is_reserved_name(name)) {
-        throw ModelError(fmt::format("'{}' is a built-in function and cannot be {}", name, role_text(role)), where,
-                         "choose another name");
-    }
     const auto [place, fresh] = entries_.try_emplace(name, Entry{role, where});
     if (!fresh) {
         const Entry& first = place->second;
@@ -101,9 +98,8 @@ void Names::declare(const std::string& name, Role role, const SourceRange& where
                          where, momentum ? "name the momenta: [fibre] momenta = [..]" : "rename one of them");
     }
     order_.push_back(name);
-    if (order_.size() > most_names) {
+    if (order_.size() > most_names)
         throw ModelError(fmt::format("the model declares more than {} names", most_names), where);
-    }
 }
 
 void Names::declare_family(const std::string& name, const Shape& shape, Role role, const SourceRange& where)
@@ -111,10 +107,9 @@ void Names::declare_family(const std::string& name, const Shape& shape, Role rol
     constexpr std::size_t most_entries = 16384;
     declare(name, role, where);
     family_entries_ += shape.size();
-    if (family_entries_ > most_entries) {
+    if (family_entries_ > most_entries)
         throw ModelError(fmt::format("the families of the model have more than {} entries in all", most_entries),
                          where);
-    }
     for (std::size_t k = 0; k < shape.size(); ++k) entries_.emplace(entry_name(name, shape, k), Entry{role, where});
 }
 

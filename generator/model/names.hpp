@@ -59,9 +59,6 @@ constexpr Roles operator|(Role a, Role b)
 /// "base coordinates", ...: several of them.
 [[nodiscard]] std::string role_plural(Role role);
 
-/// Line and column (both from 1, columns in characters) of the start of `where`, as "line 3, column 5".
-[[nodiscard]] std::string place_text(const SourceRange& where);
-
 class Names {
   public:
     struct Entry {

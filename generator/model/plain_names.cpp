@@ -85,8 +85,7 @@ std::optional<std::size_t> find_plain(const std::vector<std::string>& names, con
 std::vector<std::string> all_names(const Model& model)
 {
     std::vector<std::string> names = symbol_names(model);
-    for (const auto& symbols : {model.fibre.momenta, state_symbols(model), input_symbols(model)})
-        for (const Symbol& symbol : symbols) names.push_back(symbol.name);
+    for (const Symbol& symbol : model.fibre.momenta) names.push_back(symbol.name);
     for (const NamedTree& observable : model.observables) names.push_back(observable.name);
     // Definitions, and what else a column may be, where its name is the word of one of these.
     for (std::size_t k = 0, count = names.size(); k < count; ++k)

@@ -66,50 +66,24 @@ Symbol for_symbol(const Symbol& about, const std::string& name, const SourceRang
     return out;
 }
 
-/// Observables, invariants, definitions, Casimirs and t have no symbols: their texts are notes, one a column.
-void note(Model& model, const Symbol& about)
+/// Puts the text to what it is about. The number of symbols, or of observables, invariants and Casimirs, which have
+/// notes, one a column; 0 for definitions and t.
+std::size_t describe(Model& model, const Symbol& about)
 {
-    const auto before = model.notes.size();
-    for (const auto* list : {&model.observables, &model.invariants, &model.base.casimirs}) {
-        for (const NamedTree& each : *list)
-            if (each.name != about.name && names_entry(about.name, each.name))
-                model.notes.push_back(for_symbol(about, each.name, about.where));
-    }
-    if (model.notes.size() == before) model.notes.push_back(about);
-}
-
-/// Calls visit(symbol) for each symbol of the model that [about] may describe.
-template <class Visit>
-void for_each_symbol(Model& model, Visit visit)
-{
-    for (Parameter& parameter : model.parameters) visit(parameter.symbol);
-    for (auto* list : {&model.base.coordinates, &model.fibre.coordinates, &model.fibre.momenta})
-        std::ranges::for_each(*list, visit);
-    if (is_nonholonomic(model)) std::ranges::for_each(model.algebroid.of[0].fibre, visit);
-    if (model.control) std::ranges::for_each(model.control->controls, visit);
-    for (FirstOrderState& state : model.states) visit(state.symbol);
-    for (Input& input : model.inputs) visit(input.symbol);
-}
-
-void describe(Model& model, const Symbol& about)
-{
-    bool found = false;
-    for_each_symbol(model, [&](Symbol& symbol) {
-        if (!names_entry(about.name, symbol.name)) return;
+    std::size_t count = 0;
+    for_each_symbol(model, [&](Role role, Symbol& symbol) {
+        if (role == Role::element || role == Role::next || !names_entry(about.name, symbol.name)) return;
         symbol = for_symbol(about, symbol.name, symbol.where);
-        found = true;
+        ++count;
     });
-    if (!found) note(model, about);
-}
-
-/// True for a single entry of a family, or of an observable that is a vector.
-bool is_entry(Model& model, const std::string& name)
-{
-    bool found = false;
-    for_each_symbol(model, [&](const Symbol& symbol) { found = found || names_entry(name, symbol.name); });
+    if (count > 0) return count;
     for (const auto* list : {&model.observables, &model.invariants, &model.base.casimirs})
-        for (const NamedTree& each : *list) found = found || names_entry(name, each.name);
-    return found;
+        for (const NamedTree& each : *list) {
+            if (!names_entry(about.name, each.name)) continue;
+            model.notes.push_back(for_symbol(about, each.name, about.where));
+            ++count;
+        }
+    return count;
 }
 
 } // namespace
@@ -119,21 +93,17 @@ void read_about(ModelReader& reader)
     Model& model = reader.model;
     std::vector<std::string> known = reader.names.order();
     known.emplace_back("t");
-    for (const auto& [key, value] : reader.invariants) known.push_back(key.text);
-    std::vector<Symbol> entries;
-    for (const Item& item : reader.at("about").items()) {
-        const Symbol about = read_entry(item);
-        const bool family = std::ranges::find(known, about.name) != known.end();
-        if (!family && !is_entry(model, about.name))
-            throw complain::names_no("[about]", item.name(), "name of the model", item.where(),
-                                     hint_for(item.name(), known, "names"));
-        // An entry's own text wins over that of its family, wherever it stands.
-        if (family)
-            describe(model, about);
-        else
-            entries.push_back(about);
-    }
-    for (const Symbol& about : entries) describe(model, about);
+    for (const NamedTree& invariant : reader.invariants) known.push_back(invariant.name);
+    for (const bool families : {true, false}) // the text of an entry wins over that of its family, wherever it stands
+        for (const Item& item : reader.at("about").items()) {
+            const Symbol about = read_entry(item);
+            const bool family = std::ranges::find(known, about.name) != known.end();
+            if (family != families || describe(model, about) > 0) continue;
+            if (!family)
+                throw complain::names_no("[about]", item.name(), "name of the model", item.where(),
+                                         hint_for(item.name(), known, "names"));
+            model.notes.push_back(about);
+        }
 }
 
 } // namespace lagen

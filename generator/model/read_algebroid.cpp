@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The [algebroid] block: its kinds, files and bases first (the fibre's default names depend on them), its entries
 /// later. From drafts to blocks: sections and base coordinates get their numbers, blocks of files theirs in this model.
-#include "model/algebroid_draft.hpp"
-
+/// Base and fibre coordinates of nested algebroids: which the model's [base] declares, which come from files, and which
+/// prolongations add.
 #include "expression/rewrite.hpp"
+#include "model/algebroid_draft.hpp"
 #include "model/complaints.hpp"
 #include "model/families.hpp"
 #include "model/plain_names.hpp"
+#include "text/comma_list.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -16,6 +18,11 @@
 namespace lagen {
 
 namespace {
+
+/// The coordinates of a draft's total space.
+struct DraftSpace {
+    std::vector<Symbol> base, fibre, momenta;
+};
 
 constexpr std::size_t deepest_nesting = 16;
 
@@ -32,26 +39,7 @@ AlgebroidDraft draft_file(ModelReader& reader, const TomlValue& of)
     return draft;
 }
 
-void draft_inner(ModelReader& reader, AlgebroidDraft& draft, const Item& of, std::size_t depth)
-{
-    if (!of) return;
-    const bool product = draft.kind == AlgebroidKind::product;
-    if (depth >= deepest_nesting)
-        throw ModelError(fmt::format("algebroids are nested more than {} deep", deepest_nesting), of.where());
-    if (product ? !of.is(TomlKind::array) || of.value().items.empty() : of.is(TomlKind::array))
-        throw complain::is_not(of.title(),
-                               of.value().items.empty() && of.is(TomlKind::array) ? "an empty array"
-                                                                                  : kind_text(of.value().kind),
-                               product ? "a list of files" : "the name of a file or a table", of.value().where);
-    if (of.is(TomlKind::string))
-        draft.of.push_back(draft_file(reader, of.value()));
-    else if (of.is(TomlKind::table))
-        draft.of.push_back(draft_table(reader, of, depth + 1));
-    for (const TomlValue& item : of.value().items) draft.of.push_back(draft_file(reader, item));
-}
-
-} // namespace
-
+/// Reads kinds and files of a table and of the tables and files inside it; `depth` 0: the outermost. Throws ModelError.
 AlgebroidDraft draft_table(ModelReader& reader, const Item& table, std::size_t depth)
 {
     AlgebroidDraft draft;
@@ -59,7 +47,7 @@ AlgebroidDraft draft_table(ModelReader& reader, const Item& table, std::size_t d
     draft.title = table.title();
     draft.where = table.where();
     draft.outermost = depth == 0;
-    const Item kind = table.at("kind");
+    const Item kind = table.at("kind"), of = table.at("of");
     draft.kind = static_cast<AlgebroidKind>(place_of_kind("algebroid", kind ? kind.text() : "general"));
     if (depth > 0 && draft.kind == AlgebroidKind::nonholonomic)
         throw ModelError(fmt::format("{} is nonholonomic: its constraint is no Lie algebroid", draft.title),
@@ -67,19 +55,34 @@ AlgebroidDraft draft_table(ModelReader& reader, const Item& table, std::size_t d
     draft.fibre = read_names(reader, table.at("fibre"));
     draft.momenta = read_names(reader, table.at("momenta"));
     draft.dual = table.at("bundle") && table.at("bundle").text() == "E*";
-    if (draft.kind == AlgebroidKind::nonholonomic && table.at("drift") && !table.at("sections"))
-        throw complain::beside("'drift'", "'constraints' alone", table.at("drift").where(),
-                               "the constraints say what the drift is; 'sections' leave it open");
-    draft_inner(reader, draft, table.at("of"), depth);
+    if (!of) return draft;
+    if (depth >= deepest_nesting)
+        throw ModelError(fmt::format("algebroids are nested more than {} deep", deepest_nesting), of.where());
+    const bool product = draft.kind == AlgebroidKind::product, none = of.value().items.empty();
+    if (product ? none : of.is(TomlKind::array))
+        throw complain::is_not(of.title(),
+                               none && of.is(TomlKind::array) ? "an empty array" : kind_text(of.value().kind),
+                               product ? "a list of files" : "the name of a file or a table", of.value().where);
+    if (of.is(TomlKind::string)) draft.of.push_back(draft_file(reader, of.value()));
+    if (of.is(TomlKind::table)) draft.of.push_back(draft_table(reader, of, depth + 1));
+    for (const TomlValue& item : of.value().items) draft.of.push_back(draft_file(reader, item));
     return draft;
 }
-
-namespace {
 
 /// The names that the file gives to the fibre; empty where it gives none.
 std::vector<Symbol> names_of_fibre(const ModelReader& reader, const AlgebroidDraft& draft)
 {
     return draft.outermost ? read_names(reader, reader.at("fibre").at("coordinates")) : draft.fibre;
+}
+
+/// "v_x" for each of these coordinates of the model; for x[1,2], whose family need not be whole, "v_x_1_2".
+std::vector<Symbol> kept_velocities(const std::vector<Symbol>& coordinates, const Model& model)
+{
+    const std::vector<std::string> words = plain_names(names_of(coordinates), names_of(model.base.coordinates));
+    std::vector<Symbol> out;
+    for (std::size_t k = 0; k < words.size(); ++k)
+        out.push_back(Symbol{"v_" + words[k], coordinates[k].where, {}, {}, {}});
+    return out;
 }
 
 /// The coordinates whose velocities these are; empty where all names are others.
@@ -114,53 +117,32 @@ void make_level_set(ModelReader& reader, AlgebroidDraft& draft)
     if (!names.empty()) request.sections = names.size();
     draft.level_set = frame_of_level_set(reader, request);
     reader.own_constraints = draft.level_set.constraints;
-    if (names.empty() && !draft.outermost)
-        draft.fibre = kept_velocities(coordinates_at(reader.model, draft.level_set.kept), reader.model);
+    if (names.empty())
+        draft.fibre = kept_velocities(entries_at(reader.model.base.coordinates, draft.level_set.kept), reader.model);
 }
 
-} // namespace
-
-std::vector<Symbol> kept_velocities(const std::vector<Symbol>& coordinates, const Model& model)
-{
-    const std::vector<std::string> words = plain_names(names_of(coordinates), names_of(model.base.coordinates));
-    std::vector<Symbol> out;
-    for (std::size_t k = 0; k < words.size(); ++k)
-        out.push_back(Symbol{"v_" + words[k], coordinates[k].where, {}, {}, {}});
-    return out;
-}
-
+/// Has the frames of level sets made, and names the fibre of one that leaves it out. Throws ModelError.
 void make_level_sets(ModelReader& reader, AlgebroidDraft& draft)
 {
     if (draft.kind == AlgebroidKind::level_set) make_level_set(reader, draft);
     for (AlgebroidDraft& inner : draft.of) make_level_sets(reader, inner);
 }
 
-namespace {
-
-using Places = std::vector<std::size_t>;
-
-/// Numbers of the file's base coordinates become numbers of the model's.
-void move_block(AlgebroidBlock& block, const Places& base)
+/// Numbers of the file's base coordinates become numbers of the model's, and its names those that the model has.
+void adapt(AlgebroidBlock& block, const IncludedModel& file)
 {
-    const auto move = [&](std::size_t& i) { i = base.at(i); };
-    for (std::size_t& i : block.base) move(i);
-    for (std::size_t& i : block.over) move(i);
-    for (AnchorEntry& entry : block.anchor) move(entry.coordinate);
-    for (ConnectionEntry& entry : block.connection) move(entry.coordinate);
-    for (AlgebroidBlock& inner : block.of) move_block(inner, base);
-}
-
-/// New names in the entries of a block.
-void rename_block(AlgebroidBlock& block, const std::map<std::string, Tree>& names)
-{
-    const auto rename = [&](Tree& value) { value = replace_names(value, names); };
-    for (AnchorEntry& entry : block.anchor) rename(entry.value);
+    const auto move = [&](std::size_t& i) { i = file.base.at(i); };
+    const auto rename = [&](Tree& value) {
+        if (!file.renamed.empty()) value = replace_names(value, file.renamed);
+    };
+    std::ranges::for_each(block.base, move);
+    std::ranges::for_each(block.over, move);
+    for (AnchorEntry& entry : block.anchor) move(entry.coordinate), rename(entry.value);
+    for (ConnectionEntry& entry : block.connection) move(entry.coordinate), rename(entry.value);
     for (BracketEntry& entry : block.bracket) rename(entry.value);
     for (SectionEntry& entry : block.sections) rename(entry.value);
-    for (ConnectionEntry& entry : block.connection) rename(entry.value);
-    for (ArrayValue& matrix : block.representation)
-        for (Tree& entry : matrix.entries) rename(entry);
-    for (AlgebroidBlock& inner : block.of) rename_block(inner, names);
+    for (ArrayValue& matrix : block.representation) std::ranges::for_each(matrix.entries, rename);
+    for (AlgebroidBlock& inner : block.of) adapt(inner, file);
 }
 
 AlgebroidBlock block_of_file(const ModelReader& reader, const AlgebroidDraft& draft)
@@ -169,9 +151,40 @@ AlgebroidBlock block_of_file(const ModelReader& reader, const AlgebroidDraft& dr
     AlgebroidBlock block = included.model.algebroid;
     block.fibre = included.model.fibre.coordinates;
     block.where = draft.where;
-    move_block(block, included.base);
-    if (!included.renamed.empty()) rename_block(block, included.renamed);
+    adapt(block, included);
     return block;
+}
+
+/// How many sections the kind of a block asks for.
+struct RequiredRank {
+    const char* who = "";
+    std::size_t least = 0, most = 0;
+    const char* hint = "";
+};
+
+std::optional<RequiredRank> required_rank(const AlgebroidBlock& block)
+{
+    std::size_t inner = 0;
+    for (const AlgebroidBlock& each : block.of) inner += each.fibre.size();
+    const auto exactly = [](const char* who, std::size_t rank, const char* hint = "") {
+        return RequiredRank{who, rank, rank, hint};
+    };
+    switch (block.kind) {
+    case AlgebroidKind::tangent:
+        return exactly("a tangent bundle", block.over.size(), "one a moving base coordinate, in the order of those");
+    case AlgebroidKind::atiyah: return RequiredRank{"an Atiyah algebroid", block.base.size(), std::string::npos};
+    case AlgebroidKind::frame:
+        return exactly("a frame of the inner algebroid", inner,
+                       "a frame has as many sections as the algebroid that it frames");
+    case AlgebroidKind::prolongation: return exactly("the prolongation", 2 * inner);
+    case AlgebroidKind::groupoid: return exactly("the groupoid", block.rank);
+    case AlgebroidKind::nonholonomic:
+        return RequiredRank{"a nonholonomic constraint", 0, inner == 0 ? 0 : inner - 1,
+                            "as many sections as the ambient algebroid has are a frame: kind = \"frame\""};
+    case AlgebroidKind::product: return exactly("the product", inner);
+    case AlgebroidKind::first_order: return exactly("a system of first order", 0);
+    default: return std::nullopt;
+    }
 }
 
 /// Throws ModelError where the fibre has not as many coordinates as the kind requires.
@@ -179,53 +192,189 @@ void require_fibre_of_kind(const AlgebroidBlock& block, std::size_t found, const
                            const SourceRange& where)
 {
     const std::optional<RequiredRank> rank = required_rank(block);
-    if (!rank || rank->fits(found)) return;
-    const char* hint = block.kind == AlgebroidKind::tangent ? "one a moving base coordinate, in the order of those"
-                       : block.kind == AlgebroidKind::nonholonomic
-                           ? "as many sections as the ambient algebroid has are a frame: kind = \"frame\""
-                       : block.kind == AlgebroidKind::frame
-                           ? "a frame has as many sections as the algebroid that it frames"
-                           : "";
-    throw complain::wrong_number(things, found, rank->reason, rank->text(), where, hint);
+    if (!rank || (rank->least <= found && found <= rank->most)) return;
+    const std::string wanted = rank->most == std::string::npos ? fmt::format("at least {}", rank->least)
+                               : rank->least == rank->most     ? std::to_string(rank->most)
+                                                               : fmt::format("at most {}", rank->most);
+    throw complain::wrong_number(things, found, rank->who, wanted, where, rank->hint);
 }
 
-Places first_places(std::size_t count)
+/// The fibres of the factors of a product are parts of the product's, under its names.
+void share_out_fibres(AlgebroidBlock& block)
 {
-    Places out(count);
-    std::iota(out.begin(), out.end(), std::size_t{0});
-    return out;
-}
-
-} // namespace
-
-std::string with_sizes(const std::string& algebra, const std::vector<Size>& sizes)
-{
-    const auto in_name = [&](std::size_t k) {
-        return k < algebra.size() && (std::isalnum(static_cast<unsigned char>(algebra[k])) != 0 || algebra[k] == '_');
-    };
-    std::string out;
-    for (std::size_t k = 0; k < algebra.size();) {
-        std::size_t end = k;
-        while (in_name(end)) ++end;
-        const std::string word = algebra.substr(k, std::max<std::size_t>(end - k, 1));
-        const auto size = std::find_if(sizes.begin(), sizes.end(), [&](const Size& each) { return each.name == word; });
-        const bool stands_for_number = k > 0 && (algebra[k - 1] == '(' || algebra[k - 1] == '^');
-        out += size != sizes.end() && stands_for_number ? std::to_string(size->value) : word;
-        k += word.size();
+    auto next = block.fibre.begin();
+    for (AlgebroidBlock& inner : block.of) {
+        for (Symbol& symbol : inner.fibre)
+            if (block.kind == AlgebroidKind::product) symbol = *next++;
+        share_out_fibres(inner);
     }
+}
+
+std::vector<Symbol> with_prefix(const char* prefix, const std::vector<Symbol>& symbols)
+{
+    return with_names(symbols, [&](const std::string& name) { return prefix + name; });
+}
+
+void append(std::vector<Symbol>& list, const std::vector<Symbol>& more)
+{
+    list.insert(list.end(), more.begin(), more.end());
+}
+
+/// The models of the files that a leaf is made of: its own, or those of its factors; none of a table.
+std::vector<IncludedModel*> files_of(ModelReader& reader, const AlgebroidDraft& leaf)
+{
+    std::vector<IncludedModel*> files;
+    if (!leaf.kind) files.push_back(&reader.included[leaf.included]);
+    for (const AlgebroidDraft& factor : leaf.of) files.push_back(&reader.included[factor.included]);
+    return files;
+}
+
+/// Coordinates that `over` of a tangent table names, as places in `base`; all where it is left out.
+std::vector<std::size_t> read_over(const Item& over, const std::vector<Symbol>& base)
+{
+    std::vector<std::size_t> out(over ? 0 : base.size());
+    std::iota(out.begin(), out.end(), std::size_t{0});
+    for (const Excerpt& name : over.texts())
+        for (const std::size_t i : require_key(base, name, "'over'", "base coordinate").indices) {
+            if (std::ranges::find(out, i) != out.end())
+                throw complain::names_twice("'over'", base[i].name, place_of(name));
+            out.push_back(i);
+        }
     return out;
 }
 
+/// Fibre of a table that leaves it out.
+std::vector<Symbol> standard_fibre(const AlgebroidDraft& draft, const std::vector<Symbol>& base,
+                                   const std::vector<Symbol>& inner_fibre)
+{
+    switch (*draft.kind) {
+    case AlgebroidKind::tangent: {
+        std::vector<Symbol> moving;
+        for (const std::size_t i : read_over(draft.table.at("over"), base)) moving.push_back(base[i]);
+        return velocities_of(moving);
+    }
+    case AlgebroidKind::prolongation: {
+        std::vector<Symbol> fibre = with_prefix("X_", inner_fibre);
+        append(fibre, with_prefix(draft.dual ? "P_" : "V_", inner_fibre));
+        return fibre;
+    }
+    default: break;
+    }
+    if (draft.outermost) return {};
+    throw complain::missing(draft.title, {"fibre"}, draft.where,
+                            "fibre = [\"y1\", \"y2\"], one a section of the inner frame");
+}
+
+/// The space of a draft whose leaf has this base; fibres left out get the names of their kind.
+DraftSpace space_of(const ModelReader& reader, const AlgebroidDraft& draft, const std::vector<Symbol>& leaf_base)
+{
+    if (!draft.kind) {
+        const Model& model = reader.included[draft.included].model;
+        return {leaf_base, model.fibre.coordinates, model.fibre.momenta};
+    }
+    DraftSpace space{leaf_base, draft.fibre, draft.momenta};
+    std::vector<Symbol> inner_fibre;
+    if (*draft.kind == AlgebroidKind::product) {
+        for (const AlgebroidDraft& factor : draft.of) {
+            const Fibre& fibre = reader.included[factor.included].model.fibre;
+            if (draft.fibre.empty()) append(space.fibre, fibre.coordinates);
+            if (draft.fibre.empty() && draft.momenta.empty()) append(space.momenta, fibre.momenta);
+        }
+    } else if (!draft.of.empty()) {
+        const DraftSpace inner = space_of(reader, draft.of[0], leaf_base);
+        space.base = inner.base;
+        inner_fibre = inner.fibre;
+        if (*draft.kind == AlgebroidKind::prolongation) append(space.base, draft.dual ? inner.momenta : inner.fibre);
+    }
+    if (space.fibre.empty()) space.fibre = standard_fibre(draft, space.base, inner_fibre);
+    if (space.momenta.empty()) space.momenta = with_prefix("p_", space.fibre);
+    if (space.momenta.size() != space.fibre.size())
+        throw complain::wrong_number("momenta of " + draft.title, space.momenta.size(), "the fibre", space.fibre.size(),
+                                     draft.where);
+    return space;
+}
+
+bool same_names(const Symbol& a, const Symbol& b)
+{
+    return a.name == b.name;
+}
+
+/// Clashing coordinates of factors are told as such, not as a second declaration.
+void require_distinct(const std::vector<IncludedModel*>& factors, std::size_t count)
+{
+    std::map<std::string, const IncludedModel*> owners;
+    for (const IncludedModel* factor : factors)
+        for (const Symbol& coordinate : factor->model.base.coordinates)
+            if (const auto [at, fresh] = owners.emplace(coordinate.name, factor); !fresh)
+                throw ModelError(fmt::format("'{}' is a base coordinate of both {} and {}", coordinate.name,
+                                             at->second->model.file->name, factor->model.file->name),
+                                 factor->of->where,
+                                 fmt::format("rename them: [base] coordinates = [..], all {} in order", count));
+}
+
+/// The leaf has its base from [base], where the coordinates that prolongations add may be listed or not.
+std::size_t declare_added(ModelReader& reader, const AlgebroidDraft& draft)
+{
+    const std::vector<Symbol> given = reader.model.base.coordinates;
+    const std::vector<Symbol> all = space_of(reader, draft, given).base;
+    const std::size_t added = all.size() - given.size();
+    if (added > 0 && given.size() >= added) {
+        const std::vector<Symbol> head = part_of(given, 0, given.size() - added);
+        if (std::ranges::equal(space_of(reader, draft, head).base, given, same_names)) return head.size();
+    }
+    declare_symbols(reader, part_of(all, given.size(), added), Role::base);
+    return given.size();
+}
+
+/// The innermost draft of frames and prolongations: a file, a product, or a table whose base is the model's own.
+const AlgebroidDraft& leaf_of(const AlgebroidDraft& draft)
+{
+    const AlgebroidDraft* leaf = &draft;
+    while (leaf->kind && leaf->kind != AlgebroidKind::product && !leaf->of.empty()) leaf = &leaf->of[0];
+    return *leaf;
+}
+
+/// Declares the base coordinates that [base] leaves to files and prolongations, and checks those that it gives. The
+/// number of coordinates of the leaf, which come first; those of prolongations follow, the innermost first.
+std::size_t declare_inner_base(ModelReader& reader, const AlgebroidDraft& draft)
+{
+    const AlgebroidDraft& leaf = leaf_of(draft);
+    const bool product = leaf.kind == AlgebroidKind::product;
+    if (leaf.kind && !product) return declare_added(reader, draft);
+    const std::vector<Symbol> given = reader.model.base.coordinates;
+    const std::vector<IncludedModel*> files = files_of(reader, leaf);
+    std::vector<Symbol> head;
+    for (const IncludedModel* file : files) append(head, file->model.base.coordinates);
+    const std::vector<Symbol> all = space_of(reader, draft, head).base;
+    const std::size_t places = given.empty() ? 0 : given.size() == all.size() ? all.size() : head.size();
+    bool fits = given.size() == places;
+    for (std::size_t i = product ? head.size() : 0; fits && i < places; ++i) fits = same_names(given[i], all[i]);
+    if (!fits)
+        throw complain::wrong_number("base coordinates", given.size(), draft.title,
+                                     fmt::format("{}: {}", all.size(), comma_list(declared_names(all))),
+                                     given.front().where, "leave [base] coordinates out, or give exactly these");
+    if (given.empty() && product) require_distinct(files, head.size());
+    declare_symbols(reader, part_of(all, places, all.size() - places), Role::base);
+    std::size_t next = 0; // the place of a file's coordinate among the model's
+    for (IncludedModel* file : files)
+        for (const Symbol& coordinate : file->model.base.coordinates) {
+            const std::string& own = reader.model.base.coordinates[next].name;
+            if (own != coordinate.name) file->renamed.emplace(coordinate.name, name(own));
+            file->base.push_back(next++);
+        }
+    return head.size();
+}
+
+/// The record of the draft and of everything inside it; the leaf's base are the first coordinates of the model.
 AlgebroidBlock make_block(const ModelReader& reader, const AlgebroidDraft& draft, std::size_t leaf_size)
 {
     if (!draft.kind) return block_of_file(reader, draft);
-    const std::vector<Symbol>& all = reader.model.base.coordinates;
-    const std::vector<Symbol> leaf_base(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(leaf_size));
-    const DraftSpace space = space_of(reader, draft, leaf_base);
+    const DraftSpace space = space_of(reader, draft, part_of(reader.model.base.coordinates, 0, leaf_size));
     AlgebroidBlock block;
     block.kind = *draft.kind;
     block.fibre = space.fibre;
-    block.base = first_places(space.base.size());
+    block.base.resize(space.base.size());
+    std::iota(block.base.begin(), block.base.end(), std::size_t{0});
     block.dual = draft.dual;
     block.where = draft.where;
     for (const AlgebroidDraft& inner : draft.of) block.of.push_back(make_block(reader, inner, leaf_size));
@@ -241,54 +390,25 @@ AlgebroidBlock make_block(const ModelReader& reader, const AlgebroidDraft& draft
     return block;
 }
 
-bool RequiredRank::fits(std::size_t rank) const
-{
-    return at_least ? rank >= least : at_most ? rank <= least : rank == least;
-}
-
-std::string RequiredRank::text() const
-{
-    return at_least || at_most ? fmt::format("at {} {}", at_least ? "least" : "most", least) : std::to_string(least);
-}
-
-std::optional<RequiredRank> required_rank(const AlgebroidBlock& block)
-{
-    const auto inner_rank = [&](std::size_t k) { return block.of.at(k).fibre.size(); };
-    switch (block.kind) {
-    case AlgebroidKind::tangent: return RequiredRank{block.over.size(), false, "a tangent bundle"};
-    case AlgebroidKind::atiyah: return RequiredRank{block.base.size(), true, "an Atiyah algebroid"};
-    case AlgebroidKind::frame: return RequiredRank{inner_rank(0), false, "a frame of the inner algebroid"};
-    case AlgebroidKind::prolongation: return RequiredRank{2 * inner_rank(0), false, "the prolongation"};
-    case AlgebroidKind::groupoid: return RequiredRank{block.rank, false, "the groupoid"};
-    case AlgebroidKind::nonholonomic:
-        return RequiredRank{inner_rank(0) == 0 ? 0 : inner_rank(0) - 1, false, "a nonholonomic constraint", true};
-    case AlgebroidKind::product: {
-        std::size_t rank = 0;
-        for (const AlgebroidBlock& factor : block.of) rank += factor.fibre.size();
-        return RequiredRank{rank, false, "the product"};
-    }
-    default: return std::nullopt;
-    }
-}
-
-namespace {
-
-/// The fibres of the factors of a product are parts of the product's, under its names.
-void share_out_fibre(AlgebroidBlock& block)
-{
-    if (block.kind != AlgebroidKind::product) return;
-    auto next = block.fibre.begin();
-    for (AlgebroidBlock& factor : block.of)
-        for (Symbol& symbol : factor.fibre) symbol = *next++;
-}
-
-void share_out_fibres(AlgebroidBlock& block)
-{
-    share_out_fibre(block);
-    for (AlgebroidBlock& inner : block.of) share_out_fibres(inner);
-}
-
 } // namespace
+
+std::string with_sizes(const std::string& algebra, const std::vector<Size>& sizes)
+{
+    const auto in_name = [&](std::size_t k) {
+        return k < algebra.size() && (std::isalnum(static_cast<unsigned char>(algebra[k])) != 0 || algebra[k] == '_');
+    };
+    std::string out;
+    for (std::size_t k = 0; k < algebra.size();) {
+        std::size_t end = k;
+        while (in_name(end)) ++end;
+        const std::string word = algebra.substr(k, std::max<std::size_t>(end - k, 1));
+        const auto size = std::ranges::find(sizes, word, &Size::name);
+        const bool stands_for_number = k > 0 && (algebra[k - 1] == '(' || algebra[k - 1] == '^');
+        out += size != sizes.end() && stands_for_number ? std::to_string(size->value) : word;
+        k += word.size();
+    }
+    return out;
+}
 
 void read_algebroid_kind(ModelReader& reader)
 {
@@ -316,15 +436,9 @@ void read_algebroid_kind(ModelReader& reader)
 std::optional<std::vector<Symbol>> default_fibre(const ModelReader& reader)
 {
     const AlgebroidBlock& block = reader.model.algebroid;
-    switch (block.kind) {
-    case AlgebroidKind::tangent:
-    case AlgebroidKind::prolongation:
-    case AlgebroidKind::product: return block.fibre;
-    case AlgebroidKind::level_set:
-        if (reader.draft->level_set.kept.empty()) return std::nullopt;
-        return kept_velocities(coordinates_at(reader.model, reader.draft->level_set.kept), reader.model);
-    default: return std::nullopt;
-    }
+    using enum AlgebroidKind;
+    const bool standard = block.kind == tangent || block.kind == prolongation || block.kind == product;
+    return standard || (block.kind == level_set && !block.fibre.empty()) ? std::optional(block.fibre) : std::nullopt;
 }
 
 void require_rank(const ModelReader& reader, const SourceRange& where)
@@ -344,6 +458,16 @@ void read_algebroid(ModelReader& reader)
     read_distribution(reader, block, *reader.draft);
     define_inner_velocities(reader);
     inherit_mechanics(reader);
+}
+
+std::vector<Symbol> velocities_of(const std::vector<Symbol>& coordinates)
+{
+    return with_prefix("v_", coordinates);
+}
+
+std::vector<Symbol> coordinates_of(const Model& model, const AlgebroidBlock& block)
+{
+    return entries_at(model.base.coordinates, block.base);
 }
 
 } // namespace lagen

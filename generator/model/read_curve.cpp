@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Curves as they are written, and the [scene.NAME.plot] blocks, once all scenes are read: a picture may be like that
-/// of a scene further below.
+/// Curves as they are written, and the [scene.NAME.plot] blocks.
 #include "model/read_curve.hpp"
 
 #include "expression/parse.hpp"
 #include "model/complaints.hpp"
-#include "model/scene_form.hpp"
-#include "model/scene_reader.hpp"
+#include "model/read_values.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -27,8 +25,7 @@ const NamedTree* momentum_named(const Model& model, const Excerpt& text)
         if (observable.name == text.text) return &observable;
         if (observable.name.starts_with(prefix)) known.push_back(observable.name);
     }
-    throw complain::unknown_word("a column", text.text, text.range(0, text.text.size()), known,
-                                 "momenta of symmetries");
+    throw complain::unknown_word("a column", text.text, place_of(text), known, "momenta of symmetries");
 }
 
 /// The observable "reaction.Y" of a nonholonomic model; nothing for every other text.
@@ -39,27 +36,31 @@ std::optional<std::string> reaction_named(const Model& model, const Excerpt& tex
     const std::string coordinate = text.text.substr(prefix.size());
     const std::vector<Symbol>& ambient = ambient_fibre(model);
     if (std::ranges::find(ambient, coordinate, &Symbol::name) != ambient.end()) return text.text;
-    throw complain::names_no("a reaction", coordinate, "ambient fibre coordinate", text.range(0, text.text.size()),
+    throw complain::names_no("a reaction", coordinate, "ambient fibre coordinate", place_of(text),
                              hint_for(coordinate, declared_names(ambient), "ambient fibre coordinates"));
 }
 
-/// The parts between colons.
-std::vector<Excerpt> parts_of(const Excerpt& text)
+/// The curves of each panel: a string is one, and so is a list of strings.
+void read_panels(const ModelReader& reader, Plot& plot, const Item& given)
 {
-    std::vector<Excerpt> parts;
-    for (std::size_t begin = 0; begin <= text.text.size();) {
-        const std::size_t end = std::min(text.text.find(':', begin), text.text.size());
-        parts.push_back(trimmed(text, begin, end));
-        begin = end + 1;
+    plot.panels.clear();
+    for (const TomlValue& item : given.value().items) {
+        std::vector<Excerpt> texts;
+        if (item.kind == TomlKind::string) texts.push_back(item.text);
+        for (const TomlValue& each : item.items) texts.push_back(each.text);
+        std::vector<PlotCurve> curves;
+        for (const Excerpt& text : texts)
+            std::ranges::move(read_curve(reader.model, reader.arrows, text), std::back_inserter(curves));
+        if (curves.empty()) throw complain::needs("a panel of " + given.title(), "a curve", item.where);
+        add_panel(plot, std::move(curves));
     }
-    return parts;
 }
 
 } // namespace
 
 std::vector<NamedTree> observed_columns(const Model& model, const Scope& scope, const Excerpt& text)
 {
-    const SourceRange where = text.range(0, text.text.size());
+    const SourceRange where = place_of(text);
     const Excerpt inner = trimmed(text, 0, text.text.size());
     if (const auto* momentum = momentum_named(model, inner)) return {{momentum->name, momentum->value, where}};
     if (const auto reaction = reaction_named(model, inner)) return {{*reaction, name(*reaction, where), where}};
@@ -72,10 +73,10 @@ std::vector<NamedTree> observed_columns(const Model& model, const Scope& scope, 
 
 std::vector<PlotCurve> read_curve(const Model& model, const Scope& scope, const Excerpt& text)
 {
-    const SourceRange where = text.range(0, text.text.size());
+    const SourceRange where = place_of(text);
     std::vector<std::vector<NamedTree>> coordinates;
     std::size_t count = 1;
-    const std::vector<Excerpt> parts = parts_of(text);
+    const std::vector<Excerpt> parts = split_at_commas(text, ':');
     if (parts.size() != 2 && parts.size() != 3)
         throw complain::wrong_number(fmt::format("coordinates of the curve {}", quote(text.text)), parts.size(),
                                      "a picture", "two or three with colons between them", where,
@@ -126,115 +127,18 @@ std::vector<NamedTree> plot_coordinates(const Scene& scene)
     return coordinates;
 }
 
-namespace {
-
-/// Pictures are copied along `like`: each is made once.
-class Plots {
-  public:
-    Plots(const ModelReader& reader, const std::vector<Item>& blocks)
-        : reader_(reader), blocks_(blocks), states_(blocks.size(), State::unread), plots_(blocks.size())
-    {
-        for (const Item& block : blocks) names_.push_back(block.name());
-    }
-
-    /// That of scene k; nothing where it has none.
-    const std::optional<Plot>& of(std::size_t k)
-    {
-        if (states_[k] == State::read) return plots_[k];
-        if (states_[k] == State::open)
-            throw complain::like_itself(fmt::format("the plot of scene '{}'", names_[k]), blocks_[k].where());
-        states_[k] = State::open;
-        const Item block = blocks_[k].at("plot");
-        plots_[k] = block ? read(k, block) : liked_by_scene(k);
-        states_[k] = State::read;
-        return plots_[k];
-    }
-
-  private:
-    enum class State { unread, open, read };
-
-    std::size_t index(const std::string& name) const
-    {
-        return static_cast<std::size_t>(std::ranges::find(names_, name) - names_.begin());
-    }
-
-    /// A scene without a picture of its own has that of the scene which it is like.
-    std::optional<Plot> liked_by_scene(std::size_t k)
-    {
-        const Item like = blocks_[k].at("like");
-        return like ? of(index(like.text())) : std::nullopt;
-    }
-
-    Plot liked(std::size_t k, const Item& like)
-    {
-        const std::size_t found = index(like.text());
-        if (found == names_.size())
-            throw complain::names_no(like.title(), like.text(), "scene", like.value().where,
-                                     hint_for(like.text(), names_, "scenes"));
-        const std::optional<Plot>& plot = of(found);
-        if (!plot)
-            throw complain::needs(fmt::format("the plot of scene '{}'", names_[k]),
-                                  fmt::format("one of scene '{}'", like.text()), like.value().where,
-                                  fmt::format("add [scene.{}.plot] with curves", like.text()));
-        return *plot;
-    }
-
-    std::vector<PlotCurve> curves_in(const std::vector<Excerpt>& texts) const
-    {
-        std::vector<PlotCurve> curves;
-        for (const Excerpt& text : texts)
-            for (PlotCurve& curve : read_curve(reader_.model, reader_.arrows, text)) curves.push_back(std::move(curve));
-        return curves;
-    }
-
-    /// A string is a panel, and so is a list of strings.
-    void read_panels(Plot& plot, const Item& given) const
-    {
-        plot.panels.clear();
-        for (const TomlValue& item : given.value().items) {
-            std::vector<Excerpt> texts;
-            if (item.kind == TomlKind::string) texts.push_back(item.text);
-            for (const TomlValue& each : item.items) texts.push_back(each.text);
-            std::vector<PlotCurve> curves = curves_in(texts);
-            if (curves.empty()) throw complain::needs("a panel of " + given.title(), "a curve", item.where);
-            add_panel(plot, std::move(curves));
-        }
-    }
-
-    Plot read(std::size_t k, const Item& block)
-    {
-        Plot plot;
-        if (const Item like = block.at("like")) plot = liked(k, like);
-        if (const Item given = block.at("curves")) read_panels(plot, given);
-        if (const Item given = block.at("equal")) plot.equal = given.value().boolean;
-        if (const Item given = block.at("points")) plot.points = given.value().boolean;
-        const Item sphere = block.at("sphere");
-        if (sphere) plot.sphere = sphere.value().boolean;
-        if (plot.panels.empty()) throw complain::missing(block.title(), {"curves"}, block.where(), block.row().hint);
-        if (sphere && std::ranges::none_of(plot.panels, is_in_space))
-            throw complain::needs(sphere.title(), "a curve in space", sphere.where(),
-                                  "a curve in space has three coordinates: \"x:y:z\"");
-        return plot;
-    }
-
-    const ModelReader& reader_;
-    const std::vector<Item>& blocks_;
-    std::vector<std::string> names_;
-    std::vector<State> states_;
-    std::vector<std::optional<Plot>> plots_;
-};
-
-} // namespace
-
-void read_plots(ModelReader& reader, const std::vector<Item>& blocks)
+Plot read_plot(const ModelReader& reader, Plot plot, const Item& block)
 {
-    Plots plots(reader, blocks);
-    for (std::size_t k = 0; k < blocks.size(); ++k) {
-        Scene& scene = reader.model.scenes[k];
-        saying_which(scene.name, [&] { scene.plot = plots.of(k); });
-        if (scene.plot && !forms_of(reader.model).empty())
-            require_values_in(reader.model, scene, form_of(reader.model, scene));
-    }
+    if (const Item given = block.at("curves")) read_panels(reader, plot, given);
+    if (const Item given = block.at("equal")) plot.equal = given.value().boolean;
+    if (const Item given = block.at("points")) plot.points = given.value().boolean;
+    const Item sphere = block.at("sphere");
+    if (sphere) plot.sphere = sphere.value().boolean;
+    if (plot.panels.empty()) throw complain::missing(block.title(), {"curves"}, block.where(), block.row().hint);
+    if (sphere && std::ranges::none_of(plot.panels, is_in_space))
+        throw complain::needs(sphere.title(), "a curve in space", sphere.where(),
+                              "a curve in space has three coordinates: \"x:y:z\"");
+    return plot;
 }
 
 } // namespace lagen

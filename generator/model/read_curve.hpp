@@ -2,7 +2,7 @@
 /// Functions of a motion as they are written in `observe` and in the curves of a picture.
 #pragma once
 
-#include "model/model.hpp"
+#include "model/families.hpp"
 
 namespace lagen {
 
@@ -17,6 +17,9 @@ namespace lagen {
 /// Puts `curves` into a panel of their own. Throws ModelError where some lie in the plane and some in space, and where
 /// the plot has more than 1000 curves.
 void add_panel(Plot& plot, std::vector<PlotCurve> curves);
+
+/// The picture of a block [scene.NAME.plot], on top of `plot` (empty, or the picture that it is like).
+[[nodiscard]] Plot read_plot(const ModelReader& reader, Plot plot, const Item& block);
 
 /// True where the curves of a panel lie in space.
 [[nodiscard]] bool is_in_space(const std::vector<PlotCurve>& panel);

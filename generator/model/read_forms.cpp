@@ -31,6 +31,28 @@ void require_few_components(std::size_t degree, std::size_t rank, const std::str
     }
 }
 
+/// An operation makes forms of forms, of so many arguments.
+struct Operation {
+    std::string_view name;
+    std::size_t least, most;
+    const char* hint;
+};
+
+constexpr Operation operations[] = {
+    {"d", 1, 1, "d(A) is the exterior differential of a form or of a function"},
+    {"wedge", 2, 1'000'000, "wedge(A, B)"},
+    {"i", 2, 2, "i(s, A) is the contraction of the form A with the section s"},
+};
+
+FormExpression form_of_parts(Kind kind, std::size_t degree, std::vector<FormExpression> parts)
+{
+    FormExpression form;
+    form.kind = kind;
+    form.degree = degree;
+    form.parts = std::move(parts);
+    return form;
+}
+
 class FormReader {
   public:
     FormReader(const ModelReader& reader, const std::string& what) : reader_(reader), what_(what) {}
@@ -49,14 +71,15 @@ class FormReader {
         switch (tree->kind) {
         case TreeKind::name:
             if (const auto form = form_called(tree->name)) {
-                FormExpression result;
-                result.kind = Kind::form;
+                FormExpression result = form_of_parts(Kind::form, reader_.model.forms[*form].degree, {});
                 result.form = *form;
-                result.degree = reader_.model.forms[*form].degree;
                 return result;
             }
             return function(tree);
-        case TreeKind::negate: return unary(Kind::negative, read(tree->arguments[0]));
+        case TreeKind::negate: {
+            FormExpression part = read(tree->arguments[0]);
+            return form_of_parts(Kind::negative, part.degree, {std::move(part)});
+        }
         case TreeKind::add: return sum(tree);
         case TreeKind::multiply: return product(tree);
         case TreeKind::divide: return quotient(tree);
@@ -73,17 +96,19 @@ class FormReader {
         return static_cast<std::size_t>(found - forms.begin());
     }
 
-    /// d(..), wedge(..) and i(..) of forms, not what the model calls so.
-    [[nodiscard]] bool is_operation(const Tree& tree) const
+    /// d(..), wedge(..) and i(..) of forms, not what the model calls so; null for anything else.
+    [[nodiscard]] const Operation* operation_of(const Tree& tree) const
     {
-        return tree->kind == TreeKind::apply && (tree->name == "d" || tree->name == "wedge" || tree->name == "i") &&
-               !reader_.model.scope.has_definition(tree->name);
+        const auto* const found = std::ranges::find(operations, tree->name, &Operation::name);
+        const bool is_one = tree->kind == TreeKind::apply && found != std::end(operations) &&
+                            !reader_.model.scope.has_definition(tree->name);
+        return is_one ? found : nullptr;
     }
 
     void require_function(const Tree& tree, const std::string& what) const
     {
         const Tree form = PartSearch()(tree, [&](const Tree& part) {
-            return is_operation(part) || (part->kind == TreeKind::name && form_called(part->name));
+            return operation_of(part) != nullptr || (part->kind == TreeKind::name && form_called(part->name));
         });
         if (form == nullptr) return;
         throw ModelError(fmt::format("{} has the form '{}' where a function is required", what, to_text(form)),
@@ -99,37 +124,24 @@ class FormReader {
         return result;
     }
 
-    [[nodiscard]] static FormExpression unary(Kind kind, FormExpression part)
-    {
-        FormExpression result;
-        result.kind = kind;
-        result.degree = part.degree + (kind == Kind::differential ? 1 : 0);
-        result.parts.push_back(std::move(part));
-        return result;
-    }
-
     [[nodiscard]] FormExpression sum(const Tree& tree) const
     {
-        FormExpression result;
-        result.kind = Kind::sum;
-        result.parts = read_all(tree);
-        result.degree = result.parts.front().degree;
-        for (std::size_t k = 0; k < result.parts.size(); ++k)
-            if (result.parts[k].degree != result.degree)
-                throw ModelError(
-                    fmt::format("{} adds forms of the degrees {} and {}", what_, result.degree, result.parts[k].degree),
-                    tree->arguments[k]->where);
-        return result;
+        std::vector<FormExpression> parts = read_all(tree);
+        const std::size_t degree = parts.front().degree;
+        for (std::size_t k = 0; k < parts.size(); ++k)
+            if (parts[k].degree != degree)
+                throw ModelError(fmt::format("{} adds forms of the degrees {} and {}", what_, degree, parts[k].degree),
+                                 tree->arguments[k]->where);
+        return form_of_parts(Kind::sum, degree, std::move(parts));
     }
 
     /// A product of functions and one form is one, too.
     [[nodiscard]] FormExpression wedge(const Tree& tree) const
     {
-        FormExpression result;
-        result.kind = Kind::wedge;
-        result.parts = read_all(tree);
-        for (const FormExpression& part : result.parts) result.degree += part.degree;
-        return result;
+        std::vector<FormExpression> parts = read_all(tree);
+        std::size_t degree = 0;
+        for (const FormExpression& part : parts) degree += part.degree;
+        return form_of_parts(Kind::wedge, degree, std::move(parts));
     }
 
     /// A wedge product, where one factor at most is no function.
@@ -157,42 +169,27 @@ class FormReader {
     {
         FormExpression above = read(tree->arguments[0]);
         if (above.degree == 0 && above.kind == Kind::function) return function(tree);
-        FormExpression result;
-        result.kind = Kind::wedge;
-        result.degree = above.degree;
-        result.parts.push_back(function(divide(number(1, tree->where), tree->arguments[1])));
-        result.parts.push_back(std::move(above));
-        return result;
-    }
-
-    void require_arguments(const Tree& tree, bool right, const char* form) const
-    {
-        if (!right)
-            throw ModelError(fmt::format("{} has {}(..) with {} argument{}", what_, tree->name, tree->arguments.size(),
-                                         tree->arguments.size() == 1 ? "" : "s"),
-                             tree->where, form);
+        const std::size_t degree = above.degree;
+        FormExpression below = function(divide(number(1, tree->where), tree->arguments[1]));
+        return form_of_parts(Kind::wedge, degree, {std::move(below), std::move(above)});
     }
 
     [[nodiscard]] FormExpression application(const Tree& tree) const
     {
         const std::size_t count = tree->arguments.size();
-        if (reader_.model.scope.has_definition(tree->name)) return function(tree); // of the model
-        if (tree->name == "d") {
-            require_arguments(tree, count == 1, "d(A) is the exterior differential of a form or of a function");
-            return unary(Kind::differential, read(tree->arguments[0]));
-        }
-        if (tree->name == "wedge") {
-            require_arguments(tree, count >= 2, "wedge(A, B)");
-            return wedge(tree);
-        }
-        if (tree->name != "i") return function(tree);
-        require_arguments(tree, count == 2, "i(s, A) is the contraction of the form A with the section s");
-        FormExpression part = read(tree->arguments[1]);
+        const Operation* operation = operation_of(tree);
+        if (operation == nullptr) return function(tree); // of the model
+        if (count < operation->least || count > operation->most)
+            throw ModelError(
+                fmt::format("{} has {}(..) with {} argument{}", what_, tree->name, count, count == 1 ? "" : "s"),
+                tree->where, operation->hint);
+        if (tree->name == "wedge") return wedge(tree);
+        FormExpression part = read(tree->arguments.back());
+        if (tree->name == "d") return form_of_parts(Kind::differential, part.degree + 1, {std::move(part)});
         if (part.degree == 0)
             throw ModelError(fmt::format("{} contracts a function with a section", what_), tree->arguments[1]->where,
                              "i(s, A) needs a form of degree 1 or more");
-        FormExpression result = unary(Kind::contraction, std::move(part));
-        --result.degree;
+        FormExpression result = form_of_parts(Kind::contraction, part.degree - 1, {std::move(part)});
         result.section = section(tree->arguments[0]);
         return result;
     }
@@ -228,7 +225,7 @@ std::vector<std::size_t> read_indices(const ModelReader& reader, const NamedForm
 {
     const std::vector<Symbol>& fibre = reader.model.fibre.coordinates;
     std::vector<std::size_t> indices;
-    for (const Excerpt& side : sides_of(item.key())) {
+    for (const Excerpt& side : split_at_commas(item.key())) {
         const std::size_t index = require_entry(fibre, side, title, "fibre coordinate", &reader.model.scope);
         if (std::ranges::find(indices, index) != indices.end())
             throw complain::names_twice(item.title(), fibre[index].name, item.where(), "e ^ e = 0; leave it out");
@@ -283,8 +280,6 @@ NamedForm read_form(const ModelReader& reader, const Item& block)
 void read_forms(ModelReader& reader)
 {
     const Item block = reader.at("forms");
-    if (!block) return;
-    refuse_nonholonomic(reader, block);
     std::vector<NamedForm>& forms = reader.model.forms;
     for (const Item& item : block.items()) forms.push_back(read_form(reader, item));
     for (NamedForm& form : forms) { // a claim may name any form, in whatever order they stand

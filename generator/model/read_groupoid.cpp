@@ -2,15 +2,13 @@
 /// The [groupoid] block: its kind and its group first (the rank of its algebroid depends on them), the coordinates of
 /// an arrow and the action once expressions can be closed. The [reconstruct] block: `R = "SO(3)"`, matrices of named
 /// groups with g' = g xi, whose entries are first-order states.
-#include "model/algebroid_draft.hpp"
-
 #include "geometry/named_algebra.hpp"
+#include "model/algebroid_draft.hpp"
 #include "model/complaints.hpp"
 #include "model/families.hpp"
 #include "model/read_values.hpp"
 #include "text/comma_list.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
 
 namespace lagen {
@@ -44,61 +42,18 @@ ArrayValue basis_matrix(const SparseMatrix& matrix, std::size_t size, const Sour
     return out;
 }
 
-} // namespace
-
-void read_named_group(const ModelReader& reader, GroupoidBlock& block, const Item& item)
-{
-    block.group = with_sizes(item.text(), reader.model.sizes);
-    block.group_where = item.value().where;
-    const std::optional<NamedAlgebra> algebra = algebra_of_group(block.group);
-    if (!algebra) {
-        const std::string near = group_meant(block.group);
-        throw ModelError(
-            fmt::format("there is no group called \"{}\" of rank at most {}", block.group, named_algebra_rank_limit),
-            block.group_where,
-            fmt::format("{}known are {}, the last three with any number, and sums A + B",
-                        near.empty() ? "" : fmt::format("did you mean \"{}\"? ", near),
-                        comma_list(named_group_names())));
-    }
-    for (const SparseMatrix& matrix : algebra->basis)
-        block.generators.push_back(basis_matrix(matrix, algebra->size, block.group_where));
-}
-
-namespace {
-
-void close_generators(ModelReader& reader, GroupoidBlock& block, const Item& generators)
-{
-    for (std::size_t c = 0; c < block.generators.size(); ++c) {
-        const TomlValue& item = generators.value().items[c];
-        const std::string what = fmt::format("the generator number {}", c + 1);
-        ArrayValue matrix = reader.close(read_array_expression(item, what), Role::parameter, what);
-        const bool square = matrix.shape.rank == Rank::matrix && matrix.shape.rows == matrix.shape.columns;
-        if (!square || (c > 0 && !(matrix.shape == block.generators[0].shape)))
-            throw complain::is_not(what, to_text(matrix.shape),
-                                   square ? to_text(block.generators[0].shape) : "a square matrix", item.where,
-                                   square ? "all generators have the size of the first" : "");
-        block.generators[c] = std::move(matrix);
-    }
-}
-
 void declare_element(ModelReader& reader, const Item& item)
 {
     const Shape shape = reader.model.groupoid->generators[0].shape;
     const std::string name = item ? item.text() : "W";
     const SourceRange where = item ? item.value().where : reader.model.groupoid->where;
     require_identifier(name, where, "the name of the group element");
-    std::vector<Symbol> symbols;
-    for (std::size_t k = 0; k < shape.size(); ++k)
-        symbols.push_back(Symbol{entry_name(name, shape, k), where, {}, {}, {}});
-    declare_symbols(reader, symbols, Role::element);
+    declare_symbols(reader, symbols_called(name, shape, where), Role::element);
 }
 
 void declare_targets(ModelReader& reader)
 {
-    std::vector<Symbol> symbols;
-    for (const Symbol& each : reader.model.base.coordinates)
-        symbols.push_back(Symbol{next_name(each.name), each.where, {}, {}, {}});
-    declare_symbols(reader, symbols, Role::next);
+    declare_symbols(reader, with_names(reader.model.base.coordinates, next_name), Role::next);
 }
 
 /// A model may give [algebroid] too.
@@ -109,75 +64,6 @@ void require_rank_of_groupoid(const Model& model)
     if (rank != found)
         throw complain::wrong_number("fibre coordinates", found, "the groupoid", rank, model.groupoid->where,
                                      "one a base coordinate (pair, atiyah), then one a generator of the group");
-}
-
-} // namespace
-
-std::size_t rank_of(const GroupoidBlock& block, std::size_t n)
-{
-    return (block.has_targets() ? n : 0) + block.generators.size();
-}
-
-void declare_groupoid(ModelReader& reader)
-{
-    const Item block = reader.at("groupoid");
-    if (!block) return;
-    GroupoidBlock groupoid;
-    groupoid.where = block.where();
-    groupoid.kind = static_cast<GroupoidKind>(place_of_kind("groupoid", block.at("kind").text()));
-    require_base_of_kind(reader, block, groupoid.kind);
-    if (const Item group = block.at("group")) read_named_group(reader, groupoid, group);
-    if (const Item generators = block.at("generators")) { // their entries are read when expressions can be closed
-        groupoid.group_where = generators.value().where;
-        groupoid.generators.resize(generators.value().items.size());
-        if (groupoid.generators.size() > named_algebra_rank_limit)
-            throw complain::too_many(generators.title(), groupoid.generators.size(), "matrices",
-                                     named_algebra_rank_limit, groupoid.group_where);
-    }
-    reader.model.groupoid = std::move(groupoid);
-}
-
-void declare_arrows(ModelReader& reader)
-{
-    if (!reader.model.groupoid) return;
-    GroupoidBlock& block = *reader.model.groupoid;
-    if (const Item generators = reader.at("groupoid").at("generators")) close_generators(reader, block, generators);
-    require_rank_of_groupoid(reader.model);
-    if (block.has_group()) declare_element(reader, reader.at("groupoid").at("element"));
-    if (block.has_targets()) declare_targets(reader);
-}
-
-void read_action(ModelReader& reader)
-{
-    if (!reader.model.groupoid || reader.model.groupoid->kind != GroupoidKind::action) return;
-    GroupoidBlock& block = *reader.model.groupoid;
-    const std::vector<Symbol>& base = reader.model.base.coordinates;
-    const Item action = reader.at("groupoid").at("action");
-    block.action.resize(base.size());
-    reader.read_values(action, base, "base coordinate",
-                       [&](std::size_t i, const Tree& value, const Item&) { block.action[i] = value; });
-    for (std::size_t i = 0; i < base.size(); ++i)
-        if (!block.action[i])
-            throw complain::leaves_out(
-                "the action", fmt::format("the base coordinate '{}'", base[i].name), action.where(),
-                fmt::format("a coordinate that does not move is written {0} = \"{0}\"", base[i].name));
-}
-
-namespace {
-
-/// The first of the sections that xi has components on, or nothing where the algebroid has none.
-std::optional<std::size_t> first_vertical(const Model& model)
-{
-    const std::size_t n = model.base.coordinates.size();
-    switch (model.algebroid.kind) {
-    case AlgebroidKind::lie_algebra:
-    case AlgebroidKind::action: return 0;
-    case AlgebroidKind::atiyah: return n;
-    case AlgebroidKind::groupoid:
-        if (!model.groupoid->has_group()) return std::nullopt;
-        return model.groupoid->has_targets() ? n : 0;
-    default: return std::nullopt;
-    }
 }
 
 /// xi^c: the fibre coordinate, less A^c_i xdot^i.
@@ -213,29 +99,104 @@ void set_rates(Model& model, const Reconstruction& g)
 
 } // namespace
 
+void read_named_group(const ModelReader& reader, GroupoidBlock& block, const Item& item)
+{
+    block.group = with_sizes(item.text(), reader.model.sizes);
+    block.group_where = item.value().where;
+    const std::optional<NamedAlgebra> algebra = algebra_of_group(block.group);
+    if (!algebra) {
+        const std::string near = group_meant(block.group);
+        throw ModelError(
+            fmt::format("there is no group called \"{}\" of rank at most {}", block.group, named_algebra_rank_limit),
+            block.group_where,
+            fmt::format("{}known are {}, the last three with any number, and sums A + B",
+                        near.empty() ? "" : fmt::format("did you mean \"{}\"? ", near),
+                        comma_list(named_group_names())));
+    }
+    for (const SparseMatrix& matrix : algebra->basis)
+        block.generators.push_back(basis_matrix(matrix, algebra->size, block.group_where));
+}
+
+std::size_t rank_of(const GroupoidBlock& block, std::size_t n)
+{
+    return (block.has_targets() ? n : 0) + block.generators.size();
+}
+
+void declare_groupoid(ModelReader& reader)
+{
+    const Item block = reader.at("groupoid");
+    if (!block) return;
+    GroupoidBlock groupoid;
+    groupoid.where = block.where();
+    groupoid.kind = static_cast<GroupoidKind>(place_of_kind("groupoid", block.at("kind").text()));
+    require_base_of_kind(reader, block, groupoid.kind);
+    if (const Item group = block.at("group")) read_named_group(reader, groupoid, group);
+    if (const Item generators = block.at("generators")) { // their entries are read when expressions can be closed
+        groupoid.group_where = generators.value().where;
+        groupoid.generators.resize(generators.value().items.size());
+    }
+    reader.model.groupoid = std::move(groupoid);
+}
+
+void declare_arrows(ModelReader& reader)
+{
+    if (!reader.model.groupoid) return;
+    GroupoidBlock& block = *reader.model.groupoid;
+    if (const Item generators = reader.at("groupoid").at("generators"))
+        block.generators = read_matrices(reader, generators, std::nullopt, "all generators have the size of the first",
+                                         [](std::size_t c) { return fmt::format("the generator number {}", c + 1); });
+    require_rank_of_groupoid(reader.model);
+    if (block.has_group()) declare_element(reader, reader.at("groupoid").at("element"));
+    if (block.has_targets()) declare_targets(reader);
+}
+
+void read_action(ModelReader& reader)
+{
+    if (!reader.model.groupoid || reader.model.groupoid->kind != GroupoidKind::action) return;
+    GroupoidBlock& block = *reader.model.groupoid;
+    const std::vector<Symbol>& base = reader.model.base.coordinates;
+    const Item action = reader.at("groupoid").at("action");
+    block.action.resize(base.size());
+    reader.read_values(action, base, "base coordinate",
+                       [&](std::size_t i, const Tree& value, const Item&) { block.action[i] = value; });
+    for (std::size_t i = 0; i < base.size(); ++i)
+        if (!block.action[i])
+            throw complain::leaves_out(
+                "the action", fmt::format("the base coordinate '{}'", base[i].name), action.where(),
+                fmt::format("a coordinate that does not move is written {0} = \"{0}\"", base[i].name));
+}
+
+std::optional<std::size_t> first_vertical(const Model& model)
+{
+    const std::size_t n = model.base.coordinates.size();
+    switch (model.algebroid.kind) {
+    case AlgebroidKind::lie_algebra:
+    case AlgebroidKind::action: return 0;
+    case AlgebroidKind::atiyah: return n;
+    case AlgebroidKind::groupoid:
+        if (!model.groupoid->has_group()) return std::nullopt;
+        return model.groupoid->has_targets() ? n : 0;
+    default: return std::nullopt;
+    }
+}
+
 void declare_reconstructions(ModelReader& reader)
 {
     const Item block = reader.at("reconstruct");
     if (!block) return;
     Model& model = reader.model;
-    const std::optional<std::size_t> first = first_vertical(model);
-    if (!first)
-        throw complain::needs(block.title(), "an algebroid whose fibre is a Lie algebra, wholly or in part",
-                              block.where(), "kinds: lie_algebra, action, atiyah");
+    const std::size_t first = first_vertical(model).value();
     for (const Item& item : block.items()) {
         require_identifier(item.name(), item.where(), "a name");
         GroupoidBlock group;
         read_named_group(reader, group, item);
-        if (const std::size_t found = model.fibre.coordinates.size() - *first; found != group.generators.size())
+        if (const std::size_t found = model.fibre.coordinates.size() - first; found != group.generators.size())
             throw complain::wrong_number("generators of " + group.group, group.generators.size(), "the algebroid",
                                          found, group.group_where, "one generator a section, in the order of [fibre]");
         const Shape& shape = group.generators[0].shape;
-        Reconstruction g{group.group,         group.generators, *first,           shape.rows,
-                         model.states.size(), item.name(),      group.group_where};
-        std::vector<Symbol> symbols;
-        for (std::size_t k = 0; k < shape.size(); ++k)
-            symbols.push_back(Symbol{entry_name(item.name(), shape, k), item.where(), {}, {}, {}});
-        declare_symbols(reader, symbols, Role::state);
+        Reconstruction g{group.group, group.generators, first, shape.rows, model.states.size(),
+                         item.name(), group.group_where};
+        declare_symbols(reader, symbols_called(item.name(), shape, item.where()), Role::state);
         for (std::size_t k = 0; k < g.size; ++k) model.states[g.first + k * (g.size + 1)].start = 1;
         model.reconstructions.push_back(std::move(g));
     }

@@ -2,11 +2,9 @@
 /// The blocks that make a mechanical system or a control problem of an algebroid, and what is claimed of it:
 /// [lagrangian], [hamiltonian], [forces], [dissipation], [control], [symmetries], [hamilton_jacobi]; and [discrete].
 #include "model/algebroid_draft.hpp"
-
 #include "model/complaints.hpp"
 #include "model/families.hpp"
 #include "model/read_values.hpp"
-#include "model/total_cost.hpp"
 #include "text/comma_list.hpp"
 
 #include <algorithm>
@@ -22,10 +20,9 @@ constexpr std::size_t most_controls = 1000; // d2H/du2 has a million entries the
 void refuse_built_in_invariants(const ModelReader& reader)
 {
     if (!reader.at("lagrangian") && !reader.at("hamiltonian") && !reader.at("control")) return;
-    for (const auto& [key, value] : reader.invariants)
-        if (key.text == "energy" || key.text == "lagrangian" || key.text == "hamiltonian")
-            throw ModelError(fmt::format("the invariant '{0}' bears the name of the {0} of the model", key.text),
-                             key.range(0, key.text.size()),
+    for (const auto& [name, value, where] : reader.invariants)
+        if (name == "energy" || name == "lagrangian" || name == "hamiltonian")
+            throw ModelError(fmt::format("the invariant '{0}' bears the name of the {0} of the model", name), where,
                              "choose another name; every run tracks the energy without being asked");
 }
 
@@ -39,37 +36,27 @@ bool is_open(const TomlValue& value, bool lower)
 
 std::vector<ControlBound> read_bounds(const ModelReader& reader, const Item& block)
 {
-    const std::vector<Symbol>& controls = reader.model.control->controls;
-    std::vector<ControlBound> out;
-    for (const Item& item : block.items()) {
-        const ResolvedKey key = require_key(controls, item.key(), block.title(), "control", &reader.model.scope);
-        const std::string what = fmt::format("a bound of '{}'", key.name);
+    using Bounds = std::pair<Tree, Tree>; // null where there is none
+    const auto values = [&](const Item& item, const RunningKey& each) {
+        const std::string what = fmt::format("a bound of '{}'", each.key.name);
         std::vector<Tree> ends[2];
         for (const std::size_t end : {0U, 1U}) {
             const TomlValue& value = item.value().items[end];
-            ends[end] = is_open(value, end == 0)
-                            ? std::vector<Tree>(key.indices.size())
-                            : fit_values(reader.close(read_array_expression(value, what), Role::parameter, what),
-                                         key.shape, what, value.where);
+            const Tree parsed = is_open(value, end == 0) ? nullptr : read_array_expression(value, what);
+            ends[end] = parsed
+                            ? fit_values(reader.close(parsed, Role::parameter, what), each.key.shape, what, value.where)
+                            : std::vector<Tree>(each.key.indices.size());
         }
-        for (std::size_t k = 0; k < key.indices.size(); ++k) {
-            const std::size_t control = key.indices[k];
-            if (std::ranges::find(out, control, &ControlBound::control) != out.end())
-                throw complain::twice(item.title_of(controls[control].name), item.where());
-            if (ends[0][k] || ends[1][k]) out.push_back({control, ends[0][k], ends[1][k], item.where()});
-        }
-    }
-    return out;
-}
-
-/// Values of base coordinates.
-std::vector<NamedTree> read_point(const ModelReader& reader, const Item& table)
-{
-    const std::vector<Symbol>& base = reader.model.base.coordinates;
-    std::vector<NamedTree> out;
-    reader.read_values(table, base, "base coordinate", [&](std::size_t i, const Tree& value, const Item& item) {
-        out.push_back(NamedTree{base[i].name, value, item.where()});
-    });
+        std::vector<Bounds> bounds;
+        for (std::size_t k = 0; k < ends[0].size(); ++k) bounds.emplace_back(ends[0][k], ends[1][k]);
+        return bounds;
+    };
+    std::vector<ControlBound> out;
+    read_table(block, reader.model.control->controls, "control", reader.model.scope, values,
+               [&](std::size_t control, const Bounds& bounds, const Item& item) {
+                   const auto& [lower, upper] = bounds;
+                   if (lower || upper) out.push_back({control, lower, upper, item.where()});
+               });
     return out;
 }
 
@@ -77,11 +64,12 @@ ControlBoundary read_boundary(const ModelReader& reader, const Item& block)
 {
     ControlBoundary boundary;
     boundary.where = block.where();
-    boundary.from = read_point(reader, block.at("from"));
-    boundary.to = read_point(reader, block.at("to"));
+    const std::vector<Symbol>& base = reader.model.base.coordinates;
+    boundary.from = read_given(reader, block.at("from"), base, "base coordinate");
+    boundary.to = read_given(reader, block.at("to"), base, "base coordinate");
     if (const Item cost = block.at("terminal_cost")) boundary.terminal_cost = reader.scalar(cost);
     std::vector<std::string> missing;
-    for (const Symbol& symbol : reader.model.base.coordinates)
+    for (const Symbol& symbol : base)
         if (std::ranges::find(boundary.from, symbol.name, &NamedTree::name) == boundary.from.end())
             missing.push_back(symbol.name);
     if (!missing.empty())
@@ -102,6 +90,20 @@ Tree momentum_of(const Model& model, const std::vector<ComponentEntry>& section)
     return sum_of(terms);
 }
 
+/// A parameter that is made of the step: derivatives by the step would pass it over.
+void refuse_parameters_of_step(const Model& model)
+{
+    for (const Parameter& parameter : model.parameters) {
+        if (!mentions(parameter.value, model.discrete->step.name)) continue;
+        throw ModelError(
+            fmt::format("the parameter '{}' is made of the step '{}', which no derivative by the step knows, "
+                        "the energy -dL/dh least of all",
+                        parameter.symbol.name, model.discrete->step.name),
+            parameter.symbol.where,
+            fmt::format("make it a definition: [definitions] {} = \"..\"", parameter.symbol.name));
+    }
+}
+
 } // namespace
 
 void declare_control(ModelReader& reader)
@@ -114,9 +116,6 @@ void declare_control(ModelReader& reader)
     const std::size_t count = reader.model.control->controls.size();
     if (count > most_controls)
         throw complain::too_many(controls.title(), count, "names", most_controls, controls.value().where);
-    if (count == 0)
-        throw complain::is_not(controls.title(), "an empty array", "one control at least", controls.value().where,
-                               controls.row().hint);
 }
 
 void declare_total_cost(ModelReader& reader)
@@ -154,12 +153,6 @@ void declare_mechanics(ModelReader& reader)
 {
     refuse_built_in_invariants(reader);
     const Item L = reader.at("lagrangian").at("L"), R = reader.at("dissipation").at("R");
-    // Pontryagin's equations have no place for forces: they would be passed over in silence.
-    for (const char* key : {"forces", "dissipation"})
-        if (const Item block = reader.at(key); block && reader.at("control") && !L && !reader.at("hamiltonian"))
-            throw complain::beside(
-                block.title(), "[control], where the model has neither [lagrangian] nor [hamiltonian] for it to act on",
-                block.where(), "what acts on a system that is controlled is a part of sigma");
     if (L) {
         reader.lagrangian = read_expression(L.value(), L.title());
         reader.model.lagrangian_where = L.value().where;
@@ -167,9 +160,29 @@ void declare_mechanics(ModelReader& reader)
     if (R) reader.dissipation = read_expression(R.value(), R.title());
 }
 
+/// Every base coordinate of a system of first order has a rate.
+void read_rates(ModelReader& reader)
+{
+    Model& model = reader.model;
+    if (model.algebroid.kind != AlgebroidKind::first_order) return;
+    const std::vector<Symbol>& base = model.base.coordinates;
+    const Item block = reader.at("rates");
+    if (!block)
+        throw complain::needs("an algebroid of kind 'first_order'", "[rates]", model.algebroid.where,
+                              "[rates] x = \"..\", one a base coordinate");
+    model.rates.resize(base.size());
+    reader.read_values(block, base, "base coordinate",
+                       [&](std::size_t i, const Tree& value, const Item&) { model.rates[i] = value; });
+    std::vector<std::string> missing;
+    for (std::size_t i = 0; i < base.size(); ++i)
+        if (!model.rates[i]) missing.push_back(base[i].name);
+    if (!missing.empty()) throw complain::leaves_out("[rates]", comma_list(missing), block.where());
+}
+
 void read_mechanics(ModelReader& reader)
 {
     Model& model = reader.model;
+    read_rates(reader);
     constexpr Roles velocity = Role::time | Role::parameter | Role::base | Role::fibre;
     if (reader.lagrangian) model.lagrangian = reader.scalar(reader.lagrangian, velocity, "the Lagrangian");
     if (const Item H = reader.at("hamiltonian").at("H")) {
@@ -180,12 +193,9 @@ void read_mechanics(ModelReader& reader)
     model.forces = read_components(reader, reader.at("forces"));
     for (const ComponentEntry& force : reader.inherited_forces)
         model.forces.push_back({force.section, reader.mechanical.close(force.value, true), force.where});
+    require_rules(reader, Known::functions);
     const Item candidate = reader.at("hamilton_jacobi");
     if (!candidate) return;
-    refuse_nonholonomic(reader, candidate);
-    if (!model.lagrangian && !model.hamiltonian)
-        throw complain::needs(candidate.title(), "a Hamiltonian", candidate.where(),
-                              "give [hamiltonian] H, or [lagrangian] L");
     HamiltonJacobi& claim = model.hamilton_jacobi.emplace();
     claim.where = candidate.where();
     if (const Item S = candidate.at("S")) claim.S = reader.scalar(S);
@@ -194,14 +204,8 @@ void read_mechanics(ModelReader& reader)
 
 void read_symmetries(ModelReader& reader)
 {
-    const Item block = reader.at("symmetries");
-    if (!block) return;
-    refuse_nonholonomic(reader, block);
     Model& model = reader.model;
-    if (!model.lagrangian && !model.hamiltonian && !(model.discrete && model.discrete->lagrangian))
-        throw complain::needs(block.title(), "a function that they leave invariant", block.where(),
-                              "give [lagrangian] L, [hamiltonian] H or [discrete] L");
-    for (const Item& item : block.items()) {
+    for (const Item& item : reader.at("symmetries").items()) {
         require_identifier(item.name(), item.where(), "a name");
         Symmetry symmetry{item.name(), item.where(), read_components(reader, item), nullptr};
         symmetry.momentum = momentum_of(model, symmetry.section);
@@ -219,43 +223,12 @@ std::vector<NamedTree> conserved_trees(const Model& model)
     return trees;
 }
 
-namespace {
-
-/// A tangent bundle in its standard frame has the pair groupoid.
-void imply_groupoid(Model& model, const Item& block)
-{
-    if (model.groupoid) return;
-    const bool pairs = model.algebroid.kind == AlgebroidKind::tangent &&
-                       model.algebroid.over.size() == model.base.coordinates.size() && !model.algebroid.over.empty() &&
-                       std::ranges::is_sorted(model.algebroid.over);
-    if (!pairs)
-        throw complain::needs(block.title(), "a [groupoid], of which it gives the discrete Lagrangian", block.where(),
-                              "[groupoid] kind = \"group\", group = \"SO(3)\"");
-    model.groupoid.emplace().where = block.where();
-}
-
-/// A parameter that is made of the step: derivatives by the step would pass it over.
-void refuse_parameters_of_step(const Model& model)
-{
-    for (const Parameter& parameter : model.parameters) {
-        if (!mentions(parameter.value, model.discrete->step.name)) continue;
-        throw ModelError(
-            fmt::format("the parameter '{}' is made of the step '{}', which no derivative by the step knows, "
-                        "the energy -dL/dh least of all",
-                        parameter.symbol.name, model.discrete->step.name),
-            parameter.symbol.where,
-            fmt::format("make it a definition: [definitions] {} = \"..\"", parameter.symbol.name));
-    }
-}
-
-} // namespace
-
 void declare_discrete(ModelReader& reader)
 {
     const Item block = reader.at("discrete");
     if (!block) return;
     Model& model = reader.model;
-    imply_groupoid(model, block);
+    if (!model.groupoid) model.groupoid.emplace().where = block.where(); // of pairs: a rule says so
     DiscreteBlock& discrete = model.discrete.emplace();
     discrete.where = block.where();
     const Item step = block.at("step"), scheme = block.at("scheme"), retraction = block.at("retraction");
@@ -269,9 +242,6 @@ void declare_discrete(ModelReader& reader)
         discrete.scheme_where = scheme.value().where;
     }
     if (!retraction) return;
-    if (!model.groupoid->has_group())
-        throw complain::takes_no("[discrete] on a pair groupoid", "retraction", retraction.where(),
-                                 "it has no group part: leave it out");
     discrete.retraction = retraction.text();
     discrete.retraction_where = retraction.value().where;
 }
@@ -287,12 +257,6 @@ void read_discrete(ModelReader& reader)
     refuse_parameters_of_step(reader.model);
     const Item L = reader.at("discrete").at("L");
     if (!L) return;
-    // Its motion has no place for forces: they would be passed over in silence.
-    for (const char* key : {"forces", "dissipation", "control"})
-        if (const Item other = reader.at(key))
-            throw complain::beside(
-                other.title(), "a discrete Lagrangian that is written out, which has no place for it", other.where(),
-                "forces act on discrete motions that a scheme makes: [discrete] scheme = \"midpoint\"");
     const Tree tree = read_expression(L.value(), L.title());
     const ArrayValue closed = reader.close(tree, L.row().roles, L.title());
     if (closed.shape.rank != Rank::scalar)

@@ -5,7 +5,6 @@
 #include "model/algebroid_draft.hpp"
 #include "model/complaints.hpp"
 #include "model/families.hpp"
-#include "model/read_file.hpp"
 #include "model/read_values.hpp"
 
 #include <algorithm>
@@ -19,31 +18,6 @@ namespace {
 Model read_with(ModelReader& reader, const std::string& name, std::string text, const std::vector<Setting>& settings,
                 IncludeTrail& trail);
 
-} // namespace
-
-Model read_model(const std::string& path, const std::vector<Setting>& settings, const Choosers& choosers)
-{
-    return read_model_text(path, read_file(path), settings, choosers);
-}
-
-Model read_model_text(const std::string& name, std::string text, const std::vector<Setting>& settings,
-                      const Choosers& choosers)
-{
-    IncludeTrail trail;
-    trail.choosers = &choosers;
-    ModelReader reader;
-    return read_with(reader, name, std::move(text), settings, trail);
-}
-
-Model read_model_text(const std::string& name, std::string text, const std::vector<Setting>& settings,
-                      IncludeTrail& trail)
-{
-    ModelReader reader;
-    return read_with(reader, name, std::move(text), settings, trail);
-}
-
-namespace {
-
 /// The model as far as its base; `as_tangent`: whatever its algebroid is, as TM.
 Model probed(const ModelReader& reader, bool as_tangent)
 {
@@ -54,25 +28,6 @@ Model probed(const ModelReader& reader, bool as_tangent)
     const SourceFile& file = *reader.model.file;
     return read_with(probe, file.name, file.text, *reader.settings, trail);
 }
-
-} // namespace
-
-std::optional<std::vector<Symbol>> chosen_coordinates(const ModelReader& reader)
-{
-    if (!reader.trail->choosers->kept) return std::nullopt;
-    std::vector<Symbol> chosen;
-    for (const std::size_t place : reader.trail->choosers->kept(probed(reader, false)))
-        chosen.push_back(ambient_fibre(reader.model).at(place));
-    return chosen;
-}
-
-LevelSetFrame frame_of_level_set(const ModelReader& reader, const LevelSetRequest& request)
-{
-    if (!reader.trail->choosers->frame) throw InternalError("a level set is read by nobody who makes its frame");
-    return reader.trail->choosers->frame(probed(reader, true), request);
-}
-
-namespace {
 
 void read_header(ModelReader& reader)
 {
@@ -89,7 +44,7 @@ void declare_base(ModelReader& reader)
     declare_symbols(reader, read_names(reader, reader.at("base").at("coordinates")), Role::base);
     for (const Item& casimir : reader.at("base").at("casimirs").items()) {
         reader.names.declare(casimir.name(), Role::casimir, casimir.where());
-        reader.casimirs.emplace_back(casimir.key(), read_expression(casimir.value(), casimir.title()));
+        reader.casimirs.push_back({casimir.name(), read_expression(casimir.value(), casimir.title()), casimir.where()});
     }
 }
 
@@ -100,15 +55,14 @@ Definition read_definition_key(const Excerpt& key)
     const std::size_t open = key.text.find('(');
     const Excerpt name = trimmed(key, 0, std::min(open, key.text.size()));
     out.name = name.text;
-    out.where = name.range(0, name.text.size());
+    out.where = place_of(name);
     if (open == std::string::npos) return out;
     const Excerpt tail = trimmed(key, open + 1, key.text.size());
-    if (tail.text.empty() || tail.text.back() != ')') {
+    if (tail.text.empty() || tail.text.back() != ')')
         throw ModelError(fmt::format("the definition '{}' has no closing parenthesis at its end", key.text),
-                         key.range(0, key.text.size()), "write \"V(q)\" = \"..\"");
-    }
+                         place_of(key), "write \"V(q)\" = \"..\"");
     for (const Excerpt& parameter : split_at_commas(trimmed(tail, 0, tail.text.size() - 1))) {
-        const SourceRange where = parameter.range(0, parameter.text.size());
+        const SourceRange where = place_of(parameter);
         require_identifier(parameter.text, where, "the parameter of a function");
         for (const std::string& earlier : out.parameters) {
             if (earlier != parameter.text) continue;
@@ -131,12 +85,12 @@ void declare_definitions(ModelReader& reader)
 }
 
 /// The named expressions of a block, parsed.
-std::vector<std::pair<Excerpt, Tree>> read_named(const Item& block)
+std::vector<NamedTree> read_named(const Item& block)
 {
-    std::vector<std::pair<Excerpt, Tree>> out;
+    std::vector<NamedTree> out;
     for (const Item& item : block.items()) {
         require_identifier(item.name(), item.where(), "a name");
-        out.emplace_back(item.key(), read_expression(item.value(), item.title()));
+        out.push_back({item.name(), read_expression(item.value(), item.title()), item.where()});
     }
     return out;
 }
@@ -146,21 +100,21 @@ void declare_quantities(ModelReader& reader)
 {
     reader.observables = read_named(reader.at("observables"));
     reader.invariants = read_named(reader.at("invariants"));
-    for (const auto& [key, value] : reader.observables) {
-        const Names::Entry* entry = reader.names.find(key.text);
-        const bool same = entry != nullptr && entry->role == Role::definition && value->kind == TreeKind::name &&
-                          value->name == key.text;
-        if (!same) reader.names.declare(key.text, Role::observable, key.range(0, key.text.size()));
+    for (const auto& [name, value, where] : reader.observables) {
+        const Names::Entry* entry = reader.names.find(name);
+        const bool same =
+            entry != nullptr && entry->role == Role::definition && value->kind == TreeKind::name && value->name == name;
+        if (!same) reader.names.declare(name, Role::observable, where);
     }
 }
 
 void read_quantities(ModelReader& reader)
 {
     Model& model = reader.model;
-    for (const auto& [key, value] : reader.observables)
-        append_entries(model.observables, key, reader.arrows.close_array(value, true));
-    for (const auto& [key, value] : reader.invariants)
-        append_entries(model.invariants, key, reader.observer.close_array(value));
+    for (const NamedTree& each : reader.observables)
+        append_entries(model.observables, each, reader.arrows.close_array(each.value, true));
+    for (const NamedTree& each : reader.invariants)
+        append_entries(model.invariants, each, reader.observer.close_array(each.value));
     refuse_inputs_in(model, model.invariants);
 }
 
@@ -173,6 +127,7 @@ void declare_all(ModelReader& reader)
     declare_groupoid(reader);
     read_algebroid_kind(reader);
     declare_ambient(reader);
+    require_rules(reader, Known::algebroid);
     declare_fibre(reader);
     declare_control(reader);
     reader.declare_keys(reader.at("inputs"), Role::input);
@@ -181,6 +136,7 @@ void declare_all(ModelReader& reader)
     declare_definitions(reader);
     declare_quantities(reader);
     declare_mechanics(reader);
+    require_rules(reader, Known::blocks);
     declare_discrete(reader);
     for (const Item& form : reader.at("forms").items()) reader.names.declare(form.name(), Role::form, form.where());
     declare_total_cost(reader);
@@ -223,6 +179,41 @@ Model read_with(ModelReader& reader, const std::string& name, std::string text, 
 
 } // namespace
 
+Model read_model(const std::string& path, const std::vector<Setting>& settings, const Choosers& choosers)
+{
+    return read_model_text(path, read_file(path), settings, choosers);
+}
+
+Model read_model_text(const std::string& name, std::string text, const std::vector<Setting>& settings,
+                      const Choosers& choosers)
+{
+    IncludeTrail trail;
+    trail.choosers = &choosers;
+    return read_model_text(name, std::move(text), settings, trail);
+}
+
+Model read_model_text(const std::string& name, std::string text, const std::vector<Setting>& settings,
+                      IncludeTrail& trail)
+{
+    ModelReader reader;
+    return read_with(reader, name, std::move(text), settings, trail);
+}
+
+std::optional<std::vector<Symbol>> chosen_coordinates(const ModelReader& reader)
+{
+    if (!reader.trail->choosers->kept) return std::nullopt;
+    std::vector<Symbol> chosen;
+    for (const std::size_t place : reader.trail->choosers->kept(probed(reader, false)))
+        chosen.push_back(ambient_fibre(reader.model).at(place));
+    return chosen;
+}
+
+LevelSetFrame frame_of_level_set(const ModelReader& reader, const LevelSetRequest& request)
+{
+    if (!reader.trail->choosers->frame) throw InternalError("a level set is read by nobody who makes its frame");
+    return reader.trail->choosers->frame(probed(reader, true), request);
+}
+
 void declare_fibre(ModelReader& reader)
 {
     if (reader.is_probe) return;
@@ -239,16 +230,14 @@ void declare_fibre(ModelReader& reader)
         keep_coordinates(reader, *chosen);
     } else if (const auto standard = default_fibre(reader)) {
         declare_symbols(reader, *standard, Role::fibre);
-    } else {
+    } else if (reader.model.algebroid.kind != AlgebroidKind::first_order) {
         throw ModelError("the fibre coordinates are missing, one a section of the frame",
                          block ? block.where() : reader.model.algebroid.where,
                          "[fibre] coordinates = [\"y1\", \"y2\"]");
     }
     const Item given = block.at("momenta");
     std::vector<Symbol> momenta = read_names(reader, given);
-    if (!given)
-        for (const Symbol& coordinate : fibre.coordinates)
-            momenta.push_back(Symbol{"p_" + coordinate.name, coordinate.where, {}, {}, {}});
+    if (!given) momenta = with_names(fibre.coordinates, [](const std::string& name) { return "p_" + name; });
     declare_symbols(reader, momenta, Role::momentum);
     if (fibre.momenta.size() != fibre.coordinates.size())
         throw complain::wrong_number("momenta", fibre.momenta.size(), "the fibre", fibre.coordinates.size(),
@@ -263,9 +252,8 @@ const Scene& find_scene(const Model& model, const std::string& name)
         known.push_back(scene.name);
     }
     const SourceRange where{model.file, 0, 0};
-    if (model.scenes.empty()) {
+    if (model.scenes.empty())
         throw ModelError("the model has no scene", where, "add [scene.default] with initial values and a duration");
-    }
     if (name.empty()) return model.scenes.front();
     throw ModelError(fmt::format("the model '{}' has no scene '{}'", model.file->name, name), {},
                      hint_for(name, known, "scenes"));
@@ -290,17 +278,11 @@ const std::vector<Symbol>& ambient_fibre(const Model& model)
 std::vector<std::string> symbol_names(const Model& model)
 {
     std::vector<std::string> out;
-    for (const Parameter& parameter : model.parameters) out.push_back(parameter.symbol.name);
-    for (const Symbol& symbol : model.base.coordinates) out.push_back(symbol.name);
-    for (const Symbol& symbol : model.fibre.coordinates) out.push_back(symbol.name);
-    if (is_nonholonomic(model))
-        for (const Symbol& symbol : ambient_fibre(model))
-            if (index_of(model.fibre.coordinates, symbol.name) == model.fibre.coordinates.size())
-                out.push_back(symbol.name);
-    if (model.control)
-        for (const Symbol& symbol : model.control->controls) out.push_back(symbol.name);
-    for (const Input& input : model.inputs) out.push_back(input.symbol.name);
-    for (const FirstOrderState& state : model.states) out.push_back(state.symbol.name);
+    const std::vector<Symbol>& fibre = model.fibre.coordinates;
+    for_each_symbol(model, [&](Role role, const Symbol& symbol) {
+        const bool kept = role == Role::ambient && index_of(fibre, symbol.name) < fibre.size();
+        if (!kept && role != Role::momentum && role != Role::element && role != Role::next) out.push_back(symbol.name);
+    });
     return out;
 }
 

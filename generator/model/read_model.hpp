@@ -15,6 +15,7 @@ struct Setting {
     std::string name;
     Excerpt value; ///< empty where the value stays
     bool binds = false;
+    bool sizes_alone = false; ///< of a file that another includes: it is for a size of this name, where there is one
 
     [[nodiscard]] bool gives_value() const { return value.file != nullptr; }
 };

@@ -4,16 +4,15 @@
 #include "model/morphism.hpp"
 
 #include "expression/find_part.hpp"
+#include "expression/rewrite.hpp"
 #include "model/algebroid_draft.hpp"
 #include "model/complaints.hpp"
 #include "model/families.hpp"
-#include "model/read_file.hpp"
 #include "model/read_values.hpp"
 
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
-#include <functional>
 
 namespace lagen {
 
@@ -36,15 +35,17 @@ struct MapReader {
     [[nodiscard]] Legal legal(std::initializer_list<const std::vector<Symbol>*> lists, std::string noun) const
     {
         Legal out{morphism.source.scope, {}, std::move(noun)};
-        for (const Symbol& each : parameter_symbols(morphism.source)) out.names.insert(each.name);
+        for (const Symbol& each : symbols_of(morphism.source, Role::parameter)) out.names.insert(each.name);
         for (const std::vector<Symbol>* list : lists)
             for (const Symbol& each : *list) out.names.insert(each.name);
         return out;
     }
 
-    [[nodiscard]] static std::vector<Tree> close(const Legal& legal, const Item& item, const Shape& shape)
+    [[nodiscard]] static std::vector<Tree> close(const Legal& legal, const Item& item, const Shape& shape,
+                                                 const TreesByName& indices = {})
     {
-        const ArrayValue closed = legal.scope.close_array(read_array_expression(item.value(), item.title()));
+        const Tree parsed = replace_names(read_array_expression(item.value(), item.title()), indices);
+        const ArrayValue closed = legal.scope.close_array(parsed);
         const Tree bad =
             find_name(closed.entries, [&](const std::string& name) { return !legal.names.contains(name); });
         if (bad != nullptr)
@@ -59,15 +60,10 @@ struct MapReader {
                                          const Legal& legal) const
     {
         std::vector<Tree> out(symbols.size());
-        for (const Item& item : table.items()) {
-            const ResolvedKey key = require_key(symbols, item.key(), table.title(), noun, &morphism.target.scope);
-            const std::vector<Tree> values = close(legal, item, key.shape);
-            for (std::size_t k = 0; k < values.size(); ++k) {
-                Tree& place = out[key.indices[k]];
-                if (place) throw complain::twice(item.title_of(symbols[key.indices[k]].name), item.where());
-                place = values[k];
-            }
-        }
+        read_table(
+            table, symbols, noun, morphism.target.scope,
+            [&](const Item& item, const RunningKey& each) { return close(legal, item, each.key.shape, each.indices); },
+            [&](std::size_t k, const Tree& value, const Item&) { out[k] = value; });
         return out;
     }
 
@@ -90,26 +86,18 @@ struct MapReader {
     }
 };
 
-/// The file that a value names; `what` is how messages call the value.
-std::shared_ptr<const SourceFile> file_beside(const MorphismFile& morphism, const TomlValue& value,
-                                              const std::string& what)
-{
-    const fs::path name = value.text.text;
-    if (name.empty()) throw ModelError(fmt::format("{} names no file", what), value.where);
-    const std::string path = (fs::path(morphism.file->name).parent_path() / name).lexically_normal().string();
-    try {
-        return std::make_shared<const SourceFile>(SourceFile{path, read_file(path)});
-    } catch (const ModelError& failure) {
-        throw ModelError(failure.diagnostic().message, value.where, "paths are relative to the file they stand in");
-    }
-}
+/// A morphism hands this down to its parts.
+struct Reading {
+    const std::vector<Setting>& settings;
+    const Choosers& choosers;
+    int depth = 0; ///< how many morphisms this one is a part of
+};
 
-Model read_end(const MorphismFile& morphism, const Item& block, const char* key, const std::vector<Setting>& settings,
-               const Choosers& choosers)
+Model read_end(const Item& block, const char* key, const std::vector<Setting>& settings, const Choosers& choosers)
 {
     const Item item = block.at(key);
     if (!item) throw complain::missing(block.title(), {key}, block.where(), row_below(block.row(), key)->hint);
-    const auto file = file_beside(morphism, item.value(), item.title());
+    const auto file = file_named(item.value(), item.title());
     return read_model_text(file->name, file->text, settings, choosers);
 }
 
@@ -127,8 +115,7 @@ std::vector<Tree> read_element(const MapReader& reader, const Item& item)
                                  "the arrows of the target have no group part");
     MapReader::Legal legal = reader.legal({&morphism.source.base.coordinates, &from.next, &from.element},
                                           "coordinates of an arrow and parameters of the source");
-    add_to_scope(legal.scope, morphism.source, from.element, FamilyRole::element);
-    add_to_scope(legal.scope, morphism.source, from.next, FamilyRole::next);
+    add_to_scope(legal.scope, morphism.source, Role::element | Role::next);
     return MapReader::close(legal, item, morphism.target.groupoid->generators[0].shape);
 }
 
@@ -145,7 +132,7 @@ std::vector<Tree> read_controls(const MapReader& reader, const Item& block)
         MapReader::Legal legal = reader.legal({&from.base.coordinates, &from.control->controls},
                                               "base coordinates, controls, t and parameters of the source");
         legal.names.insert("t");
-        add_to_scope(legal.scope, from, from.control->controls, FamilyRole::control);
+        add_to_scope(legal.scope, from, Role::control);
         return reader.read_all(block, "controls", to.control->controls, "control", legal);
     }
     std::vector<Tree> same;
@@ -160,13 +147,10 @@ std::vector<Tree> read_controls(const MapReader& reader, const Item& block)
     return same;
 }
 
-std::vector<MorphismFile> read_stages(const MorphismFile& morphism, const Item& compose,
-                                      const std::vector<Setting>& settings, const Choosers& choosers, int depth);
-MorphismFile read_equal(const MorphismFile& morphism, const Item& item, const std::vector<Setting>& settings,
-                        const Choosers& choosers, int depth);
+std::vector<MorphismFile> read_stages(const Item& compose, const Reading& reading);
+MorphismFile read_equal(const MorphismFile& morphism, const Item& item, const Reading& reading);
 
-MorphismFile read_morphism_file(const std::shared_ptr<const SourceFile>& file, const std::vector<Setting>& settings,
-                                const Choosers& choosers, int depth)
+MorphismFile read_morphism_file(const std::shared_ptr<const SourceFile>& file, const Reading& reading)
 {
     MorphismFile morphism;
     morphism.file = file;
@@ -182,13 +166,12 @@ MorphismFile read_morphism_file(const std::shared_ptr<const SourceFile>& file, c
     morphism.name = top.at("name") ? top.at("name").text() : fs::path(file->name).stem().string();
     const Item block = top.at("morphism");
     const Item compose = block ? block.at("compose") : top.at("compose");
-    if (compose) morphism.stages = read_stages(morphism, compose, settings, choosers, depth);
+    if (compose) morphism.stages = read_stages(compose, reading);
     if (!compose) {
-        morphism.source = read_end(morphism, block, "source", settings, choosers);
-        morphism.target = read_end(morphism, block, "target", {}, choosers);
+        morphism.source = read_end(block, "source", reading.settings, reading.choosers);
+        morphism.target = read_end(block, "target", {}, reading.choosers);
     }
-    if (const Item equals = block.at("equals"))
-        morphism.equals = {read_equal(morphism, equals, settings, choosers, depth)};
+    if (const Item equals = block.at("equals")) morphism.equals = {read_equal(morphism, equals, reading)};
     if (compose) return morphism;
 
     const MapReader reader{morphism};
@@ -224,28 +207,24 @@ void require_joint(const std::vector<MorphismFile>& before, const MorphismFile& 
                      where);
 }
 
-/// The morphism that a value of this one names; `what` is how messages call the value.
-MorphismFile read_part(const MorphismFile& morphism, const TomlValue& value, const char* what,
-                       const std::vector<Setting>& settings, const Choosers& choosers, int depth)
+/// The morphism that a value names; `what` is how messages call the value.
+MorphismFile read_part(const TomlValue& value, const char* what, const Reading& reading)
 {
-    const auto file = file_beside(morphism, value, what);
+    if (reading.depth >= deepest_composition)
+        throw ModelError(fmt::format("morphisms are made of each other more than {} deep", deepest_composition),
+                         value.where, "a file may not be part of itself");
+    const auto file = file_named(value, what);
     if (!is_morphism(file)) throw ModelError(fmt::format("{} has no [morphism]", quote(file->name)), value.where);
-    return read_morphism_file(file, settings, choosers, depth + 1);
+    return read_morphism_file(file, {reading.settings, reading.choosers, reading.depth + 1});
 }
 
-std::vector<MorphismFile> read_stages(const MorphismFile& morphism, const Item& compose,
-                                      const std::vector<Setting>& settings, const Choosers& choosers, int depth)
+std::vector<MorphismFile> read_stages(const Item& compose, const Reading& reading)
 {
-    if (depth >= deepest_composition)
-        throw ModelError(fmt::format("morphisms are composed of each other more than {} deep", deepest_composition),
-                         compose.where(), "a file may not be part of itself");
-    if (compose.value().items.size() < 2)
-        throw complain::needs("'compose' of [morphism]", "at least two morphism files", compose.value().where,
-                              compose.row().hint);
+    const std::vector<Setting> none; // settings are of the first source
     std::vector<MorphismFile> stages;
     for (const TomlValue& item : compose.value().items) {
-        MorphismFile stage = read_part(morphism, item, "an entry of 'compose'",
-                                       stages.empty() ? settings : std::vector<Setting>{}, choosers, depth);
+        MorphismFile stage = read_part(item, "an entry of 'compose'",
+                                       {stages.empty() ? reading.settings : none, reading.choosers, reading.depth});
         std::vector<MorphismFile> parts = std::move(stage.stages);
         if (parts.empty()) parts.push_back(std::move(stage));
         require_joint(stages, parts.front(), item.where);
@@ -255,13 +234,9 @@ std::vector<MorphismFile> read_stages(const MorphismFile& morphism, const Item& 
 }
 
 /// A morphism between the same two models.
-MorphismFile read_equal(const MorphismFile& morphism, const Item& item, const std::vector<Setting>& settings,
-                        const Choosers& choosers, int depth)
+MorphismFile read_equal(const MorphismFile& morphism, const Item& item, const Reading& reading)
 {
-    if (depth >= deepest_composition)
-        throw ModelError(fmt::format("morphisms are made of each other more than {} deep", deepest_composition),
-                         item.where(), "a file may not be part of itself");
-    MorphismFile other = read_part(morphism, item.value(), "'equals' of [morphism]", settings, choosers, depth);
+    MorphismFile other = read_part(item.value(), "'equals' of [morphism]", reading);
     const auto ends = [](const MorphismFile& each) {
         return fmt::format("from {} to {}", quote(source_of(each).file->name), quote(target_of(each).file->name));
     };
@@ -295,7 +270,7 @@ bool is_morphism(const std::shared_ptr<const SourceFile>& file)
 MorphismFile read_morphism(const std::shared_ptr<const SourceFile>& file, const std::vector<Setting>& settings,
                            const Choosers& choosers)
 {
-    return read_morphism_file(file, settings, choosers, 0);
+    return read_morphism_file(file, {settings, choosers});
 }
 
 } // namespace lagen

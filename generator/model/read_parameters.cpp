@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The [sizes] block by exact arithmetic; parameter values, settings from the command line, and the base's constraints,
 /// Casimirs and domain.
-#include "model/model_reader.hpp"
-
 #include "expression/find_part.hpp"
 #include "expression/parse.hpp"
 #include "model/complaints.hpp"
-#include "model/dependency_order.hpp"
 #include "model/families.hpp"
+#include "model/model_reader.hpp"
 #include "model/read_values.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <functional>
+#include <numeric>
+#include <unordered_map>
 
 namespace lagen {
 
@@ -54,10 +55,8 @@ class SizeArithmetic {
         case TreeKind::number: return node.number;
         case TreeKind::name: return value_of(node);
         case TreeKind::negate: return -value;
-        case TreeKind::add: return sum(args);
-        case TreeKind::multiply:
-            for (std::size_t k = 1; k < args.size(); ++k) value *= args[k];
-            return value;
+        case TreeKind::add: return std::accumulate(args.begin(), args.end(), Rational(0));
+        case TreeKind::multiply: return std::accumulate(args.begin(), args.end(), Rational(1), std::multiplies<>());
         case TreeKind::divide:
             if (args[1] == 0) refuse(size_, "divides by zero", node.where);
             return value / args[1];
@@ -65,13 +64,6 @@ class SizeArithmetic {
         default: break;
         }
         refuse(size_, fmt::format("uses {}", quote(source_text(node.where))), node.where);
-    }
-
-    static Rational sum(const std::vector<Rational>& terms)
-    {
-        Rational value = 0;
-        for (const Rational& term : terms) value += term;
-        return value;
     }
 
     [[nodiscard]] Rational value_of(const TreeNode& node) const
@@ -99,35 +91,6 @@ class SizeArithmetic {
     const NamedTree& size_; ///< whose value is made
 };
 
-} // namespace
-
-void read_sizes(ModelReader& reader)
-{
-    std::vector<NamedTree> sizes;
-    for (const Item& item : reader.at("sizes").items()) {
-        reader.names.declare(item.name(), Role::size, item.where());
-        Tree value = read_expression(item.value(), item.title());
-        for (const Setting& setting : *reader.settings)
-            if (setting.name == item.name() && setting.gives_value()) value = parse_expression(setting.value);
-        sizes.push_back(NamedTree{item.name(), std::move(value), item.where()});
-    }
-    std::map<std::string, Rational> values;
-    for (const std::size_t k : dependency_order(sizes, "sizes")) {
-        const NamedTree& size = sizes[k];
-        const Rational value = SizeArithmetic(values, sizes, k)(*size.value);
-        if (value.get_den() != 1 || value < 0 || value > largest_size)
-            refuse(size, fmt::format("is {}", value.get_str()), size.value->where, "");
-        values.emplace(size.name, value);
-    }
-    for (const NamedTree& size : sizes) {
-        const long value = values.at(size.name).get_num().get_si();
-        reader.model.sizes.push_back(Size{size.name, value, size.where});
-        reader.model.scope.declare_size(size.name, value, size.where);
-    }
-}
-
-namespace {
-
 std::string input_hint(const std::string& name)
 {
     return fmt::format("a scene says what an input is: inputs = {{ {} = \"..\" }}", name);
@@ -140,7 +103,7 @@ void apply(ModelReader& reader, const std::vector<Symbol>& symbols, const Settin
         std::vector<Tree> values;
         if (setting.gives_value())
             values = fit_values(reader.close(parse_expression(setting.value), Role::parameter, what), key->shape, what,
-                                setting.value.range(0, setting.value.text.size()));
+                                place_of(setting.value));
         for (std::size_t k = 0; k < key->indices.size(); ++k) {
             Parameter& parameter = reader.model.parameters[key->indices[k]];
             if (!values.empty()) parameter.value = values[k];
@@ -180,8 +143,8 @@ void require_coordinate(const ModelReader& reader, const Tree& closed, const Exc
         const Names::Entry* entry = reader.names.find(name);
         if (entry != nullptr && entry->role == Role::base) return;
     }
-    throw ModelError(fmt::format("the constraint '{}' contains no base coordinate", text.text),
-                     text.range(0, text.text.size()), "a constraint is an expression of base coordinates that is zero");
+    throw ModelError(fmt::format("the constraint '{}' contains no base coordinate", text.text), place_of(text),
+                     "a constraint is an expression of base coordinates that is zero");
 }
 
 /// A constraint that moves with t leaves the base: its rate is a constraint on velocities, with a drift.
@@ -192,7 +155,7 @@ void refuse_moving(const ModelReader& reader, const std::vector<Tree>& closed, c
         find_name(closed, [&](const std::string& name) { return name == "t" && reader.names.find(name) == nullptr; });
     if (time == nullptr) return;
     throw complain::may_not_depend(
-        "a constraint", "the time ('t')", time->where.file ? time->where : text.range(0, text.text.size()),
+        "a constraint", "the time ('t')", time->where.file ? time->where : place_of(text),
         fmt::format("constraints of which one moves with t are constraints on velocities, with a drift: "
                     "kind = \"nonholonomic\" with constraints = [\"Dt({})\"], each of them in Dt, and "
                     "[algebroid.of] kind = \"tangent\"",
@@ -208,10 +171,9 @@ bool is_strict(Comparison comparison)
 std::vector<Tree> read_inequalities(const ModelReader& reader, const Excerpt& text)
 {
     const Tree parsed = parse_comparison(text);
-    if (parsed->kind != TreeKind::compare || !is_strict(parsed->comparison)) {
-        throw ModelError(fmt::format("the domain condition '{}' is not a strict inequality", text.text),
-                         text.range(0, text.text.size()), "use <, > or !=");
-    }
+    if (parsed->kind != TreeKind::compare || !is_strict(parsed->comparison))
+        throw ModelError(fmt::format("the domain condition '{}' is not a strict inequality", text.text), place_of(text),
+                         "use <, > or !=");
     const auto close = [&](std::size_t side) {
         return reader.close(parsed->arguments[side], Role::parameter | Role::base, "the domain");
     };
@@ -227,27 +189,66 @@ std::vector<Tree> read_inequalities(const ModelReader& reader, const Excerpt& te
     return inequalities;
 }
 
-/// Keeps the constraints of a level set, without repetitions.
-void keep_constraints(Base& base, const std::vector<std::size_t>& places)
+// Depth-first search with its own stack: a chain of parameters is as long as a user makes it.
+
+struct Visit {
+    std::size_t value;
+    std::vector<std::string> uses;
+    std::size_t next;
+};
+
+[[noreturn]] void refuse_cycle(const std::vector<NamedTree>& values, const std::vector<Visit>& path, std::size_t first,
+                               const char* noun)
 {
-    Base kept;
-    for (const std::size_t place : places) {
-        kept.constraints.push_back(base.constraints.at(place));
-        kept.constraint_texts.push_back(base.constraint_texts.at(place));
+    constexpr std::size_t most = 8;
+    const auto start = std::find_if(path.begin(), path.end(), [&](const Visit& v) { return v.value == first; });
+    std::string cycle;
+    for (auto each = start; each != path.end(); ++each) {
+        if (static_cast<std::size_t>(each - start) == most) {
+            cycle += "... -> ";
+            break;
+        }
+        cycle += values[each->value].name + " -> ";
     }
-    base.constraints = std::move(kept.constraints);
-    base.constraint_texts = std::move(kept.constraint_texts);
+    throw ModelError(fmt::format("the {} depend on each other in a cycle: {}{}", noun, cycle, values[first].name),
+                     values[first].where, "give one of them a value of its own");
 }
 
 } // namespace
 
+void read_sizes(ModelReader& reader)
+{
+    std::vector<NamedTree> sizes;
+    for (const Item& item : reader.at("sizes").items()) {
+        reader.names.declare(item.name(), Role::size, item.where());
+        Tree value = read_expression(item.value(), item.title());
+        for (const Setting& setting : *reader.settings)
+            if (setting.name == item.name() && setting.gives_value()) value = parse_expression(setting.value);
+        sizes.push_back(NamedTree{item.name(), std::move(value), item.where()});
+    }
+    std::map<std::string, Rational> values;
+    for (const std::size_t k : dependency_order(sizes, "sizes")) {
+        const NamedTree& size = sizes[k];
+        const Rational value = SizeArithmetic(values, sizes, k)(*size.value);
+        if (value.get_den() != 1 || value < 0 || value > largest_size)
+            refuse(size, fmt::format("is {}", value.get_str()), size.value->where, "");
+        values.emplace(size.name, value);
+    }
+    for (const NamedTree& size : sizes) {
+        const long value = values.at(size.name).get_num().get_si();
+        reader.model.sizes.push_back(Size{size.name, value, size.where});
+        reader.model.scope.declare_size(size.name, value, size.where);
+    }
+}
+
 void read_parameters(ModelReader& reader)
 {
     std::vector<Parameter>& parameters = reader.model.parameters;
-    const std::vector<Symbol> symbols = parameter_symbols(reader.model);
+    const std::vector<Symbol> symbols = symbols_of(reader.model, Role::parameter);
     reader.read_declared(reader.at("parameters"),
                          [&](std::size_t k, const Tree& value) { parameters[k].value = value; });
-    for (const Setting& setting : *reader.settings) apply(reader, symbols, setting);
+    for (const Setting& setting : *reader.settings)
+        if (!setting.sizes_alone) apply(reader, symbols, setting);
     std::vector<NamedTree> values;
     for (const Parameter& each : parameters) values.push_back({each.symbol.name, each.value, each.symbol.where});
     (void)dependency_order(values, "parameters");
@@ -265,14 +266,49 @@ void read_base(ModelReader& reader)
         for (Tree& entry : closed.entries) {
             require_coordinate(reader, entry, text);
             base.constraints.push_back(std::move(entry));
-            base.constraint_texts.push_back(text.range(0, text.text.size()));
+            base.constraint_texts.push_back(place_of(text));
         }
     }
-    if (reader.own_constraints) keep_constraints(base, *reader.own_constraints);
-    for (const auto& [key, value] : reader.casimirs)
-        append_entries(base.casimirs, key, reader.close(value, point, fmt::format("the Casimir '{}'", key.text)));
+    if (reader.own_constraints) { // of a level set, without repetitions
+        base.constraints = entries_at(base.constraints, *reader.own_constraints);
+        base.constraint_texts = entries_at(base.constraint_texts, *reader.own_constraints);
+    }
+    for (const NamedTree& each : reader.casimirs)
+        append_entries(base.casimirs, each,
+                       reader.close(each.value, point, fmt::format("the Casimir '{}'", each.name)));
     for (const Excerpt& text : block.at("domain").texts())
         for (Tree& inequality : read_inequalities(reader, text)) base.domain.push_back(std::move(inequality));
+}
+
+std::vector<std::size_t> dependency_order(const std::vector<NamedTree>& values, const char* noun)
+{
+    std::unordered_map<std::string, std::size_t> index; // looked up, never iterated
+    for (std::size_t k = 0; k < values.size(); ++k) index.emplace(values[k].name, k);
+    enum class State { fresh, open, done };
+    std::vector<State> state(values.size(), State::fresh);
+    std::vector<std::size_t> order;
+    std::vector<Visit> path;
+    const auto enter = [&](std::size_t k) {
+        state[k] = State::open;
+        path.push_back(Visit{k, names_in(values[k].value), 0});
+    };
+    for (std::size_t first = 0; first < values.size(); ++first) {
+        if (state[first] == State::fresh) enter(first);
+        while (!path.empty()) {
+            Visit& top = path.back();
+            if (top.next == top.uses.size()) {
+                state[top.value] = State::done;
+                order.push_back(top.value);
+                path.pop_back();
+                continue;
+            }
+            const auto place = index.find(top.uses[top.next++]);
+            if (place == index.end() || state[place->second] == State::done) continue;
+            if (state[place->second] == State::open) refuse_cycle(values, path, place->second, noun);
+            enter(place->second);
+        }
+    }
+    return order;
 }
 
 } // namespace lagen

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The [scene.NAME] blocks: what each starts from, its options, numbers, sampling and columns. `like` is resolved here:
-/// a scene starts as a copy of the one that it is like.
-#include "model/scene_reader.hpp"
-
+/// a scene starts as a copy of the one that it is like. Behind them the events, and what a discrete scene starts from:
+/// the first arrow g_0 of the groupoid, by its group part `element` and its target `next`, or values of momenta or
+/// fibre coordinates in `initial`; and the number of its steps.
 #include "expression/functions.hpp"
 #include "expression/parse.hpp"
 #include "model/complaints.hpp"
-#include "model/dependency_order.hpp"
+#include "model/families.hpp"
 #include "model/read_curve.hpp"
 #include "model/read_values.hpp"
 #include "model/scene_form.hpp"
@@ -14,20 +14,60 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <map>
 #include <unordered_map>
 
 namespace lagen {
 
 namespace {
 
-// Scenes are copied along 'like', so their sizes are bounded.
-constexpr std::size_t most_scenes = 200;
-constexpr std::size_t most_times = 100'000;
-constexpr std::size_t most_columns = 4096;
+constexpr std::size_t most_columns = 4096; // of a scene: they are copied along 'like'
 
-bool is_among(const std::vector<Symbol>& symbols, const std::string& name)
+/// Base coordinates, fibre coordinates, momenta and first-order states: what a start and a jump may set.
+std::vector<Symbol> settable_symbols(const Model& model)
 {
-    return index_of(symbols, name) < symbols.size();
+    return symbols_of(model, Role::base | Role::fibre | Role::momentum | Role::state);
+}
+
+/// Symbols without a value; a family that has none at all by its name.
+struct Missing {
+    std::size_t count = 0; ///< of symbols
+    std::vector<std::string> names;
+
+    void add(const Missing& more)
+    {
+        count += more.count;
+        names.insert(names.end(), more.names.begin(), more.names.end());
+    }
+    [[nodiscard]] std::string text() const
+    {
+        constexpr std::size_t most = 20;
+        if (names.size() <= most) return comma_list(names);
+        return fmt::format("{} and {} more", comma_list(part_of(names, 0, most)), names.size() - most);
+    }
+};
+
+Missing missing_of(const std::vector<Symbol>& symbols, const std::set<std::string>& given)
+{
+    Missing out;
+    for (const SymbolGroup& group : group_symbols(symbols)) {
+        Missing of_group;
+        for (std::size_t k = 0; k < group.shape.size(); ++k) {
+            const std::string& name = symbols[group.first + k].name;
+            if (!given.contains(name)) of_group.names.push_back(name);
+        }
+        of_group.count = of_group.names.size();
+        if (of_group.count == group.shape.size()) of_group.names = {group.name};
+        out.add(of_group);
+    }
+    return out;
+}
+
+std::set<std::string> given_names(const std::vector<NamedTree>& entries)
+{
+    std::set<std::string> names;
+    for (const NamedTree& each : entries) names.insert(each.name);
+    return names;
 }
 
 /// The hint at the coordinate that was meant by another name.
@@ -49,12 +89,9 @@ void read_initial(const ModelReader& reader, Scene& scene, const Item& block)
     const Model& model = reader.model;
     std::vector<NamedTree> own = read_given(reader, block, settable_symbols(model), "coordinate of the model",
                                             [&](const std::string& name) { return hint_for_start(reader, name); });
-    const auto gives = [&](const std::vector<Symbol>& lanes) {
-        return std::ranges::any_of(own, [&](const NamedTree& each) { return is_among(lanes, each.name); });
-    };
     const auto drop = [&](const std::vector<Symbol>& given, const std::vector<Symbol>& other) {
-        if (!gives(given) || gives(other)) return;
-        std::erase_if(scene.initial, [&](const NamedTree& each) { return is_among(other, each.name); });
+        if (first_of(own, given) == nullptr || first_of(own, other) != nullptr) return;
+        std::erase_if(scene.initial, [&](const NamedTree& each) { return index_of(other, each.name) < other.size(); });
     };
     drop(model.fibre.momenta, model.fibre.coordinates);
     drop(model.fibre.coordinates, model.fibre.momenta);
@@ -63,9 +100,7 @@ void read_initial(const ModelReader& reader, Scene& scene, const Item& block)
 
 void read_scene_inputs(const ModelReader& reader, Scene& scene, const Item& item)
 {
-    const std::vector<Symbol> symbols = input_symbols(reader.model);
-    if (symbols.empty())
-        throw complain::needs(item.title(), "[inputs] of the model", item.where(), "[inputs] u = 0, and u in [forces]");
+    const std::vector<Symbol> symbols = symbols_of(reader.model, Role::input);
     if (item.is(TomlKind::string)) {
         scene.inputs.clear();
         scene.input_table = InputTable{item.text(), item.value().where};
@@ -84,10 +119,9 @@ void require_complete(const ModelReader& reader, const Scene& scene)
     const Missing no_momentum = missing_of(fibre.momenta, given);
     const bool some_fibre = no_fibre.count < fibre.coordinates.size();
     const bool some_momenta = no_momentum.count < fibre.momenta.size();
-    if (some_fibre && some_momenta) {
+    if (some_fibre && some_momenta)
         throw ModelError(fmt::format("scene '{}' mixes fibre coordinates and momenta in 'initial'", scene.name),
                          scene.where, "give every fibre coordinate or every momentum");
-    }
     Missing missing = missing_of(reader.model.base.coordinates, given);
     const bool momenta = some_momenta || is_form(form_of(reader.model, scene), FormKind::pontryagin);
     const Missing& rest = momenta ? no_momentum : no_fibre;
@@ -112,7 +146,7 @@ void read_observe(const ModelReader& reader, Scene& scene, const Item& item)
         if (seen.insert(column.name).second) out.push_back(std::move(column));
     };
     for (const Excerpt& text : item.texts()) {
-        const SourceRange where = text.range(0, text.text.size());
+        const SourceRange where = place_of(text);
         if (text.text == "state" && reader.names.find("state") == nullptr) {
             const std::size_t first = out.size();
             for (const std::string& state : state_names(reader.model, form_of(reader.model, scene)))
@@ -163,11 +197,8 @@ void read_sampling(const ModelReader& reader, Scene& scene, const Item& block)
         scene.sampling.count = static_cast<std::size_t>(samples.value().integer);
     } else {
         scene.sampling.kind = Sampling::Kind::at;
-        const std::vector<TomlValue>& times = at.value().items;
-        if (times.size() > most_times)
-            throw complain::too_many(at.title(), times.size(), "times", most_times, at.value().where);
         const std::string what = "a time in " + at.title();
-        for (const TomlValue& time : times)
+        for (const TomlValue& time : at.value().items)
             scene.sampling.at.push_back(reader.scalar(read_expression(time, what), Role::parameter, what));
     }
 }
@@ -196,6 +227,19 @@ void read_options(const ModelReader& reader, Scene& scene, const Item& block)
     }
 }
 
+/// The fibre coordinates that a scene at rest leaves out are 0; one that starts from momenta or an arrow has none.
+void at_rest(const Model& model, Scene& scene)
+{
+    const auto is_momentum = [&](const NamedTree& each) {
+        return index_of(model.fibre.momenta, each.name) < model.fibre.momenta.size();
+    };
+    if (!scene.rest || !scene.element.empty() || !scene.next.empty() || std::ranges::any_of(scene.initial, is_momentum))
+        return;
+    const std::set<std::string> given = given_names(scene.initial);
+    for (const Symbol& symbol : model.fibre.coordinates)
+        if (!given.contains(symbol.name)) scene.initial.push_back({symbol.name, number(0), scene.where});
+}
+
 /// Throws ModelError where the scene's parameter values close a cycle.
 void require_acyclic_scene(const ModelReader& reader, const Scene& scene)
 {
@@ -207,81 +251,139 @@ void require_acyclic_scene(const ModelReader& reader, const Scene& scene)
     (void)dependency_order(values, "parameters");
 }
 
-} // namespace
-
-void put_all(std::vector<NamedTree>& list, std::vector<NamedTree> entries)
+/// Refuses a name that nothing but the motion itself may change.
+void require_free(const ModelReader& reader, const NamedTree& set, const std::string& title)
 {
-    std::unordered_map<std::string, std::size_t> index; // looked up, never iterated
-    for (std::size_t k = 0; k < list.size(); ++k) index.emplace(list[k].name, k);
-    for (NamedTree& entry : entries) {
-        const auto [place, fresh] = index.try_emplace(entry.name, list.size());
-        if (fresh) {
-            list.push_back(std::move(entry));
-        } else {
-            list[place->second] = std::move(entry);
-        }
+    for (const Tree& constraint : reader.model.base.constraints) {
+        if (!mentions(constraint, set.name)) continue;
+        throw ModelError(fmt::format("the jump of {} sets '{}', which the constraint {} = 0 holds", title, set.name,
+                                     to_text(constraint)),
+                         set.where, "let it set fibre coordinates or momenta");
+    }
+    const std::size_t state = index_of(symbols_of(reader.model, Role::state), set.name);
+    for (const Reconstruction& g : reader.model.reconstructions)
+        if (g.holds(state))
+            throw ModelError(
+                fmt::format("the jump of {} sets '{}', an entry of a matrix of the group {}", title, set.name, g.group),
+                set.where, "let it set fibre coordinates, which the matrix follows");
+}
+
+/// The values of coordinates, momenta and first-order states behind a crossing, as expressions of the state before it.
+/// Throws ModelError: a name that is none of the state's, or held by a constraint or a group; fibre coordinates beside
+/// momenta.
+std::vector<NamedTree> read_jump(const ModelReader& reader, const Item& block, const std::string& title)
+{
+    const Model& model = reader.model;
+    std::vector<NamedTree> jump =
+        read_given(reader, block, settable_symbols(model), "coordinate, momentum or first-order state",
+                   [&](const std::string& name) { return hint_for_key(settable_symbols(model), name, "coordinates"); });
+    for (const NamedTree& each : jump) require_free(reader, each, title);
+    if (first_of(jump, model.fibre.coordinates) != nullptr && first_of(jump, model.fibre.momenta) != nullptr)
+        throw ModelError(fmt::format("the jump of {} sets fibre coordinates and momenta", title), block.where(),
+                         "keep one kind: each follows from the other");
+    return jump;
+}
+
+Event read_event(const ModelReader& reader, const Item& item)
+{
+    require_identifier(item.name(), item.where(), "the name of an event");
+    Event event;
+    event.name = item.name();
+    event.where = item.where();
+    if (const Item direction = item.at("direction"))
+        event.direction = direction.text() == "rising"    ? Direction::rising
+                          : direction.text() == "falling" ? Direction::falling
+                                                          : Direction::any;
+    if (const Item stop = item.at("stop")) event.stop = stop.value().boolean;
+    if (const Item count = item.at("count")) event.count = count.value().integer;
+    if (const Item jump = item.at("jump")) event.jump = read_jump(reader, jump, item.title());
+    const Item when = item.at("when");
+    if (when.is(TomlKind::string)) refuse_equation(when.value().text, "the condition");
+    event.when = reader.scalar(when);
+    return event;
+}
+
+void read_scene_events(const ModelReader& reader, Scene& scene, const Item& block)
+{
+    for (const Item& item : block.items()) {
+        Event event = read_event(reader, item);
+        const auto place = std::ranges::find(scene.events, event.name, &Event::name);
+        (place == scene.events.end() ? scene.events.emplace_back() : *place) = std::move(event);
     }
 }
 
-std::vector<Symbol> settable_symbols(const Model& model)
+[[noreturn]] void refuse_missing(const Scene& scene, const char* what, const Missing& missing)
 {
-    std::vector<Symbol> all;
-    for (const std::vector<Symbol>& symbols :
-         {model.base.coordinates, model.fibre.coordinates, model.fibre.momenta, state_symbols(model)})
-        all.insert(all.end(), symbols.begin(), symbols.end());
-    return all;
+    throw complain::leaves_out(fmt::format("scene '{}'", scene.name),
+                               fmt::format("the {} value{} of {}", what, missing.count > 1 ? "s" : "", missing.text()),
+                               scene.where);
 }
 
-std::vector<NamedTree> read_given(const ModelReader& reader, const Item& table, const std::vector<Symbol>& symbols,
-                                  const char* noun, const ModelReader::Hint& hint)
+/// The parts of an arrow that its kind has.
+void require_parts(const ModelReader& reader, const Scene& scene)
 {
-    std::vector<NamedTree> given;
-    reader.read_values(
-        table, symbols, noun,
-        [&](std::size_t k, const Tree& value, const Item& item) {
-            given.push_back({symbols[k].name, value, item.where()});
-        },
-        hint);
-    return given;
+    const GroupoidBlock& groupoid = *reader.model.groupoid;
+    if (groupoid.has_group() && scene.element.empty())
+        throw complain::leaves_out(fmt::format("scene '{}'", scene.name),
+                                   "'element', the group part of its first arrow", scene.where);
+    if (!groupoid.has_targets()) return;
+    const Missing missing = missing_of(reader.model.base.coordinates, given_names(scene.next));
+    if (missing.count > 0) refuse_missing(scene, "next", missing);
 }
 
-void Missing::add(const Missing& more)
+/// `element`, `next` and `steps`.
+void read_first_arrow(const ModelReader& reader, Scene& scene, const Item& block)
 {
-    count += more.count;
-    names.insert(names.end(), more.names.begin(), more.names.end());
-}
-
-std::string Missing::text() const
-{
-    constexpr std::size_t most = 20;
-    if (names.size() <= most) return comma_list(names);
-    const std::vector<std::string> first(names.begin(), names.begin() + most);
-    return fmt::format("{} and {} more", comma_list(first), names.size() - most);
-}
-
-Missing missing_of(const std::vector<Symbol>& symbols, const std::set<std::string>& given)
-{
-    Missing out;
-    for (const SymbolGroup& group : group_symbols(symbols)) {
-        Missing of_group;
-        for (std::size_t k = 0; k < group.shape.size(); ++k) {
-            const std::string& name = symbols[group.first + k].name;
-            if (!given.contains(name)) of_group.names.push_back(name);
-        }
-        of_group.count = of_group.names.size();
-        if (of_group.count == group.shape.size()) of_group.names = {group.name};
-        out.add(of_group);
+    const Item element = block.at("element"), next = block.at("next"), steps = block.at("steps");
+    if (element) {
+        const ArrayValue closed = reader.array(element);
+        const Shape& wanted = reader.model.groupoid->generators[0].shape;
+        if (!(closed.shape == wanted))
+            throw complain::is_not(element.title(), to_text(closed.shape), to_text(wanted), element.value().where,
+                                   "it is a matrix of the group of the groupoid");
+        scene.element = closed.entries;
+        scene.element_where = element.value().where;
     }
-    return out;
+    put_all(scene.next, read_given(reader, next, reader.model.base.coordinates, "base coordinate"));
+    if (steps) scene.steps = steps.value().integer;
 }
 
-std::set<std::string> given_names(const std::vector<NamedTree>& entries)
+/// In a discrete scene: throws ModelError unless `initial` has every base coordinate, and the first arrow is given, or
+/// every momentum, or (where there is a Lagrangian) every fibre coordinate.
+void require_first_arrow(const ModelReader& reader, const Scene& scene)
 {
-    std::set<std::string> names;
-    for (const NamedTree& each : entries) names.insert(each.name);
-    return names;
+    const Model& model = reader.model;
+    const std::set<std::string> given = given_names(scene.initial);
+    const Missing no_base = missing_of(model.base.coordinates, given);
+    const Missing no_fibre = missing_of(model.fibre.coordinates, given);
+    const Missing no_momenta = missing_of(model.fibre.momenta, given);
+    const bool fibre = no_fibre.count < model.fibre.coordinates.size();
+    const bool momenta = no_momenta.count < model.fibre.momenta.size();
+    const bool arrow = !scene.element.empty() || !scene.next.empty();
+    if (no_base.count > 0) refuse_missing(scene, "initial", no_base);
+    if ((arrow && (fibre || momenta)) || (fibre && momenta))
+        throw ModelError(fmt::format("scene '{}' starts from {} at once", scene.name,
+                                     arrow ? "an arrow and from values of the fibre" : "fibre coordinates and momenta"),
+                         scene.where, "give the first arrow, or every momentum, or every fibre coordinate");
+    if (arrow) return require_parts(reader, scene);
+    if (momenta && no_momenta.count > 0) refuse_missing(scene, "initial", no_momenta);
+    if (momenta) return;
+    const std::string first = model.groupoid->kind == GroupoidKind::pair     ? "'next'"
+                              : model.groupoid->kind == GroupoidKind::atiyah ? "'next' and 'element'"
+                                                                             : "'element'";
+    if (!fibre && !scene.rest)
+        throw ModelError(fmt::format("scene '{}' gives neither its first arrow ({}) nor momenta", scene.name, first),
+                         scene.where, "an arrow is the first step; momenta determine it");
+    if (!model.lagrangian)
+        throw ModelError(
+            fmt::format("scene '{}' starts from fibre coordinates, which give momenta by [lagrangian] alone",
+                        scene.name),
+            scene.where, fmt::format("give {}, or momenta in 'initial'", first));
+    if (!scene.rest && no_fibre.count > 0) refuse_missing(scene, "initial", no_fibre);
 }
 
+/// The scene of `block`, on top of `scene` (empty, or the scene that it is like). Parameters set on the command line
+/// win over the scene's.
 Scene read_scene(const ModelReader& reader, Scene scene, const Item& block)
 {
     scene.name = block.name();
@@ -289,13 +391,14 @@ Scene read_scene(const ModelReader& reader, Scene scene, const Item& block)
     read_options(reader, scene, block);
     if (const Item initial = block.at("initial")) read_initial(reader, scene, initial);
     read_first_arrow(reader, scene, block);
-    put_all(scene.parameters, read_given(reader, block.at("parameters"), parameter_symbols(reader.model), "parameter"));
+    put_all(scene.parameters,
+            read_given(reader, block.at("parameters"), symbols_of(reader.model, Role::parameter), "parameter"));
     if (const Item inputs = block.at("inputs")) read_scene_inputs(reader, scene, inputs);
     if (const Item observe = block.at("observe")) read_observe(reader, scene, observe);
     if (const Item events = block.at("events")) read_scene_events(reader, scene, events);
     read_sampling(reader, scene, block);
     for (const Setting& setting : *reader.settings) {
-        if (!setting.gives_value()) continue;
+        if (!setting.gives_value() || setting.sizes_alone) continue;
         const std::string key = key_of(reader, setting);
         std::erase_if(scene.parameters, [&](const NamedTree& each) { return names_entry(key, each.name); });
     }
@@ -313,53 +416,52 @@ Scene read_scene(const ModelReader& reader, Scene scene, const Item& block)
     return scene;
 }
 
-namespace {
+/// Scenes, or their pictures, each made once. `make` asks for what a block is like before it reads the block itself.
+template <class Made>
+class Likes {
+  public:
+    using Make = std::function<Made(Likes&, const Item&)>;
 
-/// The scene blocks by name, and which of them are read already.
-struct SceneBlocks {
-    std::vector<Item> items;
-    std::vector<std::string> names;
-    std::vector<std::optional<Scene>> done;
+    /// `noun` stands before the titles of the blocks in messages.
+    Likes(const std::vector<Item>& blocks, std::string noun, Make make)
+        : blocks_(blocks), noun_(std::move(noun)), make_(std::move(make))
+    {
+        for (const Item& block : blocks) names_.push_back(block.name());
+    }
+
+    const Made& of(const std::string& name)
+    {
+        const auto [place, fresh] = made_.try_emplace(name);
+        std::optional<Made>& made = place->second;
+        const Item& block = blocks_[static_cast<std::size_t>(std::ranges::find(names_, name) - names_.begin())];
+        if (!fresh && !made) throw complain::like_itself(noun_ + block.title(), block.where());
+        if (fresh) made = make_(*this, block);
+        return *made;
+    }
+
+    /// The same for the scene that a key `like` names.
+    const Made& of(const Item& like)
+    {
+        if (std::ranges::find(names_, like.text()) == names_.end())
+            throw complain::names_no(like.title(), like.text(), "scene", like.value().where,
+                                     hint_for(like.text(), names_, "scenes"));
+        return of(like.text());
+    }
+
+  private:
+    const std::vector<Item>& blocks_;
+    std::string noun_;
+    Make make_;
+    std::vector<std::string> names_;
+    std::map<std::string, std::optional<Made>> made_; ///< nothing where it is being made
 };
 
-/// The index of the scene that `k` is like, if it is like one.
-std::optional<std::size_t> liked_by(const SceneBlocks& blocks, std::size_t k)
-{
-    const Item like = blocks.items[k].at("like");
-    if (!like) return std::nullopt;
-    const auto found = std::ranges::find(blocks.names, like.text());
-    if (found == blocks.names.end())
-        throw complain::names_no(like.title(), like.text(), "scene", like.value().where,
-                                 hint_for(like.text(), blocks.names, "scenes"));
-    return static_cast<std::size_t>(found - blocks.names.begin());
-}
-
-/// Scene `first` and everything that it is like, the last of the chain first.
-void read_chain(const ModelReader& reader, SceneBlocks& blocks, std::size_t first)
-{
-    std::vector<std::size_t> chain;
-    std::optional<std::size_t> next = first;
-    while (next && !blocks.done[*next]) {
-        if (std::ranges::find(chain, *next) != chain.end())
-            throw complain::like_itself(blocks.items[*next].title(), blocks.items[*next].where());
-        chain.push_back(*next);
-        next = liked_by(blocks, *next);
-    }
-    Scene scene;
-    if (next) scene = *blocks.done[*next];
-    for (; !chain.empty(); chain.pop_back()) {
-        const Item& block = blocks.items[chain.back()];
-        saying_which(block.name(), [&] { scene = read_scene(reader, std::move(scene), block); });
-        blocks.done[chain.back()] = scene;
-    }
-}
-
-} // namespace
-
-void saying_which(const std::string& scene, const std::function<void()>& read)
+/// Runs `read`. A mistake in any scene keeps the whole model from being read, so that its message says which it is.
+template <class Read>
+auto saying_which(const std::string& scene, Read read)
 {
     try {
-        read();
+        return read();
     } catch (const ModelError& error) {
         Diagnostic diagnostic = error.diagnostic();
         const std::string& message = diagnostic.message;
@@ -371,21 +473,61 @@ void saying_which(const std::string& scene, const std::function<void()>& read)
     }
 }
 
+/// A scene without a picture of its own has that of the scene which it is like.
+std::optional<Plot> picture_of(const ModelReader& reader, Likes<std::optional<Plot>>& plots, const Item& scene)
+{
+    const Item block = scene.at("plot"), like = (block ? block : scene).at("like");
+    if (!block) return like ? plots.of(like) : std::nullopt;
+    const std::optional<Plot> liked = like ? plots.of(like) : Plot{};
+    if (!liked)
+        throw complain::needs("the plot of " + scene.title(), fmt::format("one of scene '{}'", like.text()),
+                              like.value().where, fmt::format("add [scene.{}.plot] with curves", like.text()));
+    return saying_which(scene.name(), [&] { return read_plot(reader, *liked, block); });
+}
+
+} // namespace
+
+const NamedTree* first_of(const std::vector<NamedTree>& entries, const std::vector<Symbol>& symbols)
+{
+    const auto is_among = [&](const NamedTree& each) { return index_of(symbols, each.name) < symbols.size(); };
+    const auto found = std::ranges::find_if(entries, is_among);
+    return found == entries.end() ? nullptr : &*found;
+}
+
+void put_all(std::vector<NamedTree>& list, std::vector<NamedTree> entries)
+{
+    std::unordered_map<std::string, std::size_t> index; // looked up, never iterated
+    for (std::size_t k = 0; k < list.size(); ++k) index.emplace(list[k].name, k);
+    for (NamedTree& entry : entries) {
+        const auto [place, fresh] = index.try_emplace(entry.name, list.size());
+        (fresh ? list.emplace_back() : list[place->second]) = std::move(entry);
+    }
+}
+
 void read_scenes(ModelReader& reader)
 {
-    const Item block = reader.at("scene");
-    SceneBlocks blocks{block.items(), {}, {}};
-    if (blocks.items.size() > most_scenes)
-        throw complain::too_many("the model", blocks.items.size(), "scenes", most_scenes, block.where());
-    for (const Item& item : blocks.items) {
+    const std::vector<Item> blocks = reader.at("scene").items();
+    for (const Item& item : blocks) {
         require_printable(item.key(), "a scene's name");
         if (item.name().empty()) throw ModelError("a scene has an empty name", item.where());
-        blocks.names.push_back(item.name());
     }
-    blocks.done.resize(blocks.items.size());
-    for (std::size_t k = 0; k < blocks.items.size(); ++k) read_chain(reader, blocks, k);
-    for (std::optional<Scene>& scene : blocks.done) reader.model.scenes.push_back(std::move(*scene));
-    read_plots(reader, blocks.items);
+    Likes<Scene> scenes(blocks, "", [&](Likes<Scene>& others, const Item& item) {
+        const Item like = item.at("like");
+        Scene scene = like ? others.of(like) : Scene{};
+        return saying_which(item.name(), [&] { return read_scene(reader, std::move(scene), item); });
+    });
+    for (const Item& item : blocks) {
+        reader.model.scenes.push_back(scenes.of(item.name()));
+        at_rest(reader.model, reader.model.scenes.back()); // behind all that are like it
+    }
+    Likes<std::optional<Plot>> plots(blocks, "the plot of ",
+                                     [&](auto& others, const Item& item) { return picture_of(reader, others, item); });
+    for (std::size_t k = 0; k < blocks.size(); ++k) {
+        Scene& scene = reader.model.scenes[k];
+        scene.plot = plots.of(blocks[k].name());
+        if (scene.plot && !forms_of(reader.model).empty())
+            require_values_in(reader.model, scene, form_of(reader.model, scene));
+    }
 }
 
 } // namespace lagen

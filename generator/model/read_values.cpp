@@ -6,7 +6,12 @@
 #include "model/complaints.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
 #include <fmt/format.h>
+#include <fstream>
 
 namespace lagen {
 
@@ -91,7 +96,7 @@ void refuse_equation(const Excerpt& text, const std::string& what)
     if (right.text != "0") difference += single ? " - " + right.text : fmt::format(" - ({})", right.text);
     throw ModelError(
         fmt::format("{} '{}' is an equation, where an expression that is zero is required", what, text.text),
-        text.range(0, text.text.size()), fmt::format("write \"{}\"", difference));
+        place_of(text), fmt::format("write \"{}\"", difference));
 }
 
 void require_printable(const Excerpt& text, const std::string& what)
@@ -105,15 +110,59 @@ void require_printable(const Excerpt& text, const std::string& what)
         text.range(at, at + point.length));
 }
 
-std::vector<Excerpt> split_at_commas(const Excerpt& text)
+std::vector<Excerpt> split_at_commas(const Excerpt& text, char comma)
 {
     std::vector<Excerpt> out;
     std::size_t begin = 0;
-    while (true) {
-        const std::size_t comma = text.text.find(',', begin);
-        out.push_back(trimmed(text, begin, std::min(comma, text.text.size())));
-        if (comma == std::string::npos) return out;
-        begin = comma + 1;
+    int depth = 0;
+    for (std::size_t k = 0; k < text.text.size(); ++k) {
+        depth += text.text[k] == '[' ? 1 : text.text[k] == ']' ? -1 : 0;
+        if (text.text[k] != comma || depth > 0) continue;
+        out.push_back(trimmed(text, begin, k));
+        begin = k + 1;
+    }
+    out.push_back(trimmed(text, begin, text.text.size()));
+    return out;
+}
+
+std::string read_file(const std::string& path)
+{
+    constexpr std::size_t most_bytes = std::size_t{16} << 20U;
+    const auto refuse = [&](const std::string& why, const char* hint) {
+        throw ModelError(fmt::format("the model file '{}' {}", path, why), {}, hint);
+    };
+    if (path.find('\0') != std::string::npos) refuse("has a zero byte in its name", "");
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    if (status.type() == std::filesystem::file_type::not_found)
+        refuse("does not exist", "give the path of a .toml file");
+    if (status.type() == std::filesystem::file_type::directory)
+        refuse("is a folder", "give the path of a .toml file in it");
+    std::ifstream in(path, std::ios::binary);
+    if (!in) refuse(fmt::format("cannot be opened: {}", std::strerror(errno)), "");
+    std::string text;
+    std::array<char, 65536> block{};
+    while (in.read(block.data(), block.size()) || in.gcount() > 0) {
+        text.append(block.data(), static_cast<std::size_t>(in.gcount()));
+        if (text.size() > most_bytes) refuse("is larger than 16 MiB", "");
+    }
+    if (in.bad()) refuse("cannot be read to its end", "");
+    return text;
+}
+
+std::shared_ptr<const SourceFile> file_named(const TomlValue& value, const std::string& what)
+{
+    namespace fs = std::filesystem;
+    if (value.text.text.empty()) throw ModelError(fmt::format("{} names no file", what), value.where);
+    const fs::path path = (fs::path(value.where.file->name).parent_path() / value.text.text).lexically_normal();
+    std::error_code error;
+    if (fs::exists(path, error) && !fs::is_regular_file(path, error) && !fs::is_directory(path, error))
+        throw ModelError(fmt::format("{} is not a regular file", quote(path.string())), value.where);
+    try {
+        return std::make_shared<const SourceFile>(SourceFile{path.string(), read_file(path.string())});
+    } catch (const ModelError& failure) {
+        throw ModelError(failure.diagnostic().message, value.where,
+                         fmt::format("{} is relative to the file that it stands in", what));
     }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Single values of a model file, whose kinds are right already: expressions, texts, lists of names.
+/// Files, and single values of a model file, whose kinds are right already: expressions, texts, lists of names.
 #pragma once
 
 #include "expression/tree.hpp"
@@ -9,6 +9,14 @@
 #include <vector>
 
 namespace lagen {
+
+/// The whole content of the file. Throws ModelError: it does not exist, is a folder, cannot be opened or read, or holds
+/// more than 16 MiB (pipes are read too, and bounded alike).
+[[nodiscard]] std::string read_file(const std::string& path);
+
+/// The file that a value names, by a path relative to the file that the value stands in; messages point at the value,
+/// which they call `what`.
+[[nodiscard]] std::shared_ptr<const SourceFile> file_named(const TomlValue& value, const std::string& what);
 
 /// A string is parsed as an expression, an integer or decimal taken exactly (0.1 is 1/10, re-read from its text).
 /// `what` opens the message where the value is anything else, e.g. "the parameter 'm'".
@@ -24,7 +32,8 @@ void refuse_equation(const Excerpt& text, const std::string& what);
 /// Throws ModelError where a control character stands in the text.
 void require_printable(const Excerpt& text, const std::string& what);
 
-/// The parts between commas, blanks trimmed; at least one (possibly empty) part.
-[[nodiscard]] std::vector<Excerpt> split_at_commas(const Excerpt& text);
+/// The parts between commas (or another separator) outside of brackets, blanks trimmed; at least one (possibly empty)
+/// part: "a", "W[1,2]" of "a, W[1,2]".
+[[nodiscard]] std::vector<Excerpt> split_at_commas(const Excerpt& text, char comma = ',');
 
 } // namespace lagen

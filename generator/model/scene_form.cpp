@@ -3,24 +3,48 @@
 
 #include "expression/find_part.hpp"
 #include "model/complaints.hpp"
-#include "model/families.hpp"
 #include "model/read_curve.hpp"
-#include "model/total_cost.hpp"
 #include "text/comma_list.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <numeric>
 #include <set>
 
 namespace lagen {
 
 namespace {
 
-std::vector<EquationForm> by_rank()
+constexpr EquationForm form_rows[] = {
+    {FormKind::lagrange, "lagrange", "", "Fibre", "fibre coordinates", false, false, "no [lagrangian]",
+     [](const Model& model) { return model.lagrangian != nullptr; }, 1},
+    {FormKind::hamilton, "hamilton", "_hamilton", "Momenta", "momenta", true, false,
+     "neither [hamiltonian] nor [lagrangian]",
+     [](const Model& model) { return model.lagrangian != nullptr || model.hamiltonian != nullptr; }, 2},
+    {FormKind::pontryagin, "pontryagin", "_pontryagin", "Momenta", "momenta", true, false, "no [control]",
+     [](const Model& model) { return model.control.has_value(); }, 0},
+    {FormKind::discrete, "discrete", "_discrete", "Momenta", "momenta", true, true, "no [discrete]",
+     [](const Model& model) { return model.discrete.has_value(); }, -1},
+    {FormKind::first_order, "first_order", "", "Base", "base coordinates", false, false, "no [rates]",
+     [](const Model& model) { return model.algebroid.kind == AlgebroidKind::first_order; }, 0},
+};
+
+static_assert(std::size(form_rows) == static_cast<std::size_t>(FormKind::first_order) + 1);
+static_assert([] {
+    for (std::size_t k = 0; k < std::size(form_rows); ++k)
+        if (form_rows[k].kind != static_cast<FormKind>(k)) return false;
+    return true;
+}()); // in the order of the enumeration
+
+/// The names of the forms that a model has, the default first; of all without one.
+std::vector<std::string> names_by_rank(const Model* model)
 {
-    std::vector<EquationForm> rows(form_table().begin(), form_table().end());
+    std::vector<EquationForm> rows(std::begin(form_rows), std::end(form_rows));
     std::ranges::sort(rows, {}, &EquationForm::rank);
-    return rows;
+    std::vector<std::string> names;
+    for (const EquationForm& form : rows)
+        if (model == nullptr || form.exists(*model)) names.emplace_back(form.name);
+    return names;
 }
 
 std::string form_hint(const std::vector<std::string>& forms)
@@ -60,11 +84,11 @@ std::vector<ForeignNames> foreign_names(const Model& model, const std::string& f
         out.push_back({"the coordinate of the target", names(model.groupoid->next), hint});
     }
     if (form_named(form).steps && !model.states.empty())
-        out.push_back({"the first-order state", names(state_symbols(model)),
+        out.push_back({"the first-order state", names(symbols_of(model, Role::state)),
                        "first-order states move in continuous time: give the scene another form"});
     if (form_named(form).steps && !model.inputs.empty())
-        out.push_back(
-            {"the input", names(input_symbols(model)), "inputs act in continuous time: give the scene another form"});
+        out.push_back({"the input", names(symbols_of(model, Role::input)),
+                       "inputs act in continuous time: give the scene another form"});
     return out;
 }
 
@@ -103,6 +127,24 @@ class ForeignSearch {
     PartSearch search_;
 };
 
+/// Calls visit(tree, what, where) for each function of the motion that a scene looks at; `what` calls it in messages.
+template <class Visit>
+void for_each_function(const Scene& scene, Visit visit)
+{
+    const auto named = [&](const char* what, const NamedTree& each) {
+        visit(each.value, fmt::format(fmt::runtime(what), each.name), each.where);
+    };
+    if (scene.observe)
+        for (const NamedTree& column : *scene.observe) named("the column '{}'", column);
+    for (const NamedTree& coordinate : plot_coordinates(scene)) named("the curve of '{}'", coordinate);
+    for (const Event& event : scene.events) {
+        visit(event.when, fmt::format("event '{}'", event.name), event.where);
+        for (const NamedTree& each : event.jump)
+            visit(each.value, fmt::format("'{}' in the jump of event '{}'", each.name, event.name), each.where);
+    }
+    if (scene.time_scale != nullptr) visit(scene.time_scale, "the time scale", scene.time_scale_where);
+}
+
 /// Neither velocities nor momenta follow from an arrow without the discrete Lagrangian.
 void require_start_of_motion(const Scene& scene, const std::string& form)
 {
@@ -123,14 +165,6 @@ void require_no_events(const Scene& scene)
                      scene.events.front().where, "observe its function, and look for the change of sign in the rows");
 }
 
-/// A name of the jump that is among `symbols`, or "".
-std::string first_of(const std::vector<NamedTree>& jump, const std::vector<Symbol>& symbols)
-{
-    for (const NamedTree& each : jump)
-        if (index_of(symbols, each.name) < symbols.size()) return each.name;
-    return "";
-}
-
 /// Inputs act in continuous time; those of Pontryagin's equations are functions of time, which no costate answers.
 void require_inputs_in(const Model& model, const Scene& scene, const std::string& form)
 {
@@ -145,7 +179,7 @@ void require_inputs_in(const Model& model, const Scene& scene, const std::string
         throw ModelError(fmt::format("scene '{}' gives a table of inputs, and in the form '{}' they are functions of t",
                                      scene.name, form),
                          where, "inputs = { u = \"..\" }");
-    const std::vector<Symbol> parameters = parameter_symbols(model);
+    const std::vector<Symbol> parameters = symbols_of(model, Role::parameter);
     for (const NamedTree& input : scene.inputs)
         for (const std::string& used : names_in(input.value))
             if (used != "t" && index_of(parameters, used) == parameters.size())
@@ -158,10 +192,7 @@ void require_inputs_in(const Model& model, const Scene& scene, const std::string
 /// A costate follows from no velocity: sigma gives y for each (x, u), and u is what is sought.
 void require_momenta(const Model& model, const Scene& scene)
 {
-    std::set<std::string> fibre;
-    for (const Symbol& symbol : model.fibre.coordinates) fibre.insert(symbol.name);
-    const auto is_fibre = [&](const NamedTree& each) { return fibre.contains(each.name); };
-    if (std::ranges::none_of(scene.initial, is_fibre)) return;
+    if (first_of(scene.initial, model.fibre.coordinates) == nullptr) return;
     throw ModelError(
         fmt::format("scene '{}' starts from fibre coordinates, where Pontryagin's equations start from momenta",
                     scene.name),
@@ -189,7 +220,61 @@ void replace_states(const Model& model, Scene& scene, const std::string& form)
     columns.insert(columns.begin() + static_cast<std::ptrdiff_t>(first), states.begin(), states.end());
 }
 
+/// The trees that are evaluated along every motion of the scene; without a scene those of a header.
+std::vector<Tree> evaluated_trees(const Model& model, const Scene* scene)
+{
+    std::vector<Tree> trees;
+    const auto append = [&](const std::vector<NamedTree>& named) {
+        for (const NamedTree& each : named) trees.push_back(each.value);
+    };
+    for (const ComponentEntry& force : model.forces) trees.push_back(force.value);
+    append(model.invariants);
+    if (scene != nullptr) {
+        for_each_function(*scene,
+                          [&](const Tree& tree, const std::string&, const SourceRange&) { trees.push_back(tree); });
+        append(scene->inputs);
+        return trees;
+    }
+    append(model.observables);
+    for (const Scene& each : model.scenes)
+        for (const Event& event : each.events) {
+            trees.push_back(event.when);
+            append(event.jump);
+        }
+    return trees;
+}
+
+/// A state alone, or all entries of a matrix: it stays on its group as a whole.
+std::vector<std::size_t> together(const Model& model, std::size_t state)
+{
+    for (const Reconstruction& g : model.reconstructions) {
+        if (!g.holds(state)) continue;
+        std::vector<std::size_t> entries(g.size * g.size);
+        std::iota(entries.begin(), entries.end(), g.first);
+        return entries;
+    }
+    return {state};
+}
+
 } // namespace
+
+const EquationForm& entry_of(FormKind kind)
+{
+    return form_rows[static_cast<std::size_t>(kind)];
+}
+
+const EquationForm& form_named(const std::string& name)
+{
+    const auto* const row =
+        std::ranges::find_if(form_rows, [&](const EquationForm& form) { return name == form.name; });
+    if (row == std::end(form_rows)) throw InternalError("there is no form called " + name);
+    return *row;
+}
+
+bool is_form(const std::string& name, FormKind kind)
+{
+    return name == entry_of(kind).name;
+}
 
 std::string default_form(const Model& model)
 {
@@ -201,7 +286,7 @@ const std::vector<std::string>& form_names()
 {
     static const std::vector<std::string> names = [] {
         std::vector<std::string> all;
-        for (const EquationForm& form : form_table()) all.emplace_back(form.name);
+        for (const EquationForm& form : form_rows) all.emplace_back(form.name);
         return all;
     }();
     return names;
@@ -215,17 +300,12 @@ std::string form_list()
 
 std::string default_order()
 {
-    std::vector<std::string> names;
-    for (const EquationForm& form : by_rank()) names.emplace_back(form.name);
-    return comma_list(names);
+    return comma_list(names_by_rank(nullptr));
 }
 
 std::vector<std::string> forms_of(const Model& model)
 {
-    std::vector<std::string> names;
-    for (const EquationForm& form : by_rank())
-        if (form.exists(model)) names.emplace_back(form.name);
-    return names;
+    return names_by_rank(&model);
 }
 
 void require_form(const Model& model, const std::string& form, const std::string& what, const SourceRange& where)
@@ -266,15 +346,16 @@ std::vector<std::string> state_names(const Model& model, const std::string& form
 
 std::optional<JumpObstacle> obstacle_to_jump(const Model& model, const Event& event, const std::string& form)
 {
-    const std::string momentum = first_of(event.jump, model.fibre.momenta);
-    const std::string velocity = first_of(event.jump, model.fibre.coordinates);
-    if (!momentum.empty() && !form_named(form).momenta)
-        return JumpObstacle{fmt::format("the momentum '{}', and the form '{}' has fibre coordinates", momentum, form),
-                            "set those, or run another form: form = \"hamilton\""};
-    if (!velocity.empty() && form_named(form).momenta && !model.lagrangian)
+    const bool momenta = form_named(form).momenta;
+    if (const NamedTree* momentum = first_of(event.jump, model.fibre.momenta); momentum != nullptr && !momenta)
+        return JumpObstacle{
+            fmt::format("the momentum '{}', and the form '{}' has fibre coordinates", momentum->name, form),
+            "set those, or run another form: form = \"hamilton\""};
+    if (const NamedTree* velocity = first_of(event.jump, model.fibre.coordinates);
+        velocity != nullptr && momenta && !model.lagrangian)
         return JumpObstacle{fmt::format("the fibre coordinate '{}', and the form '{}' of a model without [lagrangian] "
                                         "has momenta alone",
-                                        velocity, form),
+                                        velocity->name, form),
                             "set momenta"};
     return std::nullopt;
 }
@@ -282,24 +363,14 @@ std::optional<JumpObstacle> obstacle_to_jump(const Model& model, const Event& ev
 void require_values_in(const Model& model, const Scene& scene, const std::string& form)
 {
     ForeignSearch foreign_in(model, form);
-    for (const NamedTree& column : scene.observe.value_or(std::vector<NamedTree>{}))
-        foreign_in.refuse_in(column.value, fmt::format("the column '{}' of scene '{}'", column.name, scene.name), form,
-                             column.where);
-    for (const NamedTree& coordinate : plot_coordinates(scene))
-        foreign_in.refuse_in(coordinate.value,
-                             fmt::format("the curve of '{}' of scene '{}'", coordinate.name, scene.name), form,
-                             coordinate.where);
-    for (const Event& event : scene.events) {
-        const std::string title = fmt::format("event '{}' of scene '{}'", event.name, scene.name);
-        foreign_in.refuse_in(event.when, title, form, event.where);
-        for (const NamedTree& each : event.jump)
-            foreign_in.refuse_in(each.value, fmt::format("'{}' in the jump of {}", each.name, title), form, each.where);
+    for_each_function(scene, [&](const Tree& tree, const std::string& what, const SourceRange& where) {
+        foreign_in.refuse_in(tree, fmt::format("{} of scene '{}'", what, scene.name), form, where);
+    });
+    for (const Event& event : scene.events)
         if (const std::optional<JumpObstacle> obstacle = obstacle_to_jump(model, event, form))
-            throw ModelError(fmt::format("the jump of {} sets {}", title, obstacle->text), event.where, obstacle->hint);
-    }
-    if (scene.time_scale != nullptr)
-        foreign_in.refuse_in(scene.time_scale, fmt::format("the time scale of scene '{}'", scene.name), form,
-                             scene.time_scale_where);
+            throw ModelError(
+                fmt::format("the jump of event '{}' of scene '{}' sets {}", event.name, scene.name, obstacle->text),
+                event.where, obstacle->hint);
 }
 
 bool has_value(const Model& model, const Tree& tree, const std::string& form)
@@ -339,6 +410,43 @@ Scene in_form(const Model& model, Scene scene, const std::string& form)
     if (is_form(form, FormKind::pontryagin)) require_momenta(model, scene);
     require_values_in(model, scene, form);
     return scene;
+}
+
+std::vector<std::size_t> carried_states(const Model& model, const std::string& form, const Scene* scene)
+{
+    std::vector<std::size_t> carried;
+    if (form_named(form).steps) return carried;
+    const bool chosen = scene != nullptr && scene->observe;
+    for (std::size_t k = 0; k < model.states.size() && !chosen; ++k)
+        if (!is_total_cost(model, k)) carried.push_back(k);
+    if (carried.size() == model.states.size()) return carried;
+    const std::vector<Symbol> symbols = symbols_of(model, Role::state);
+    std::vector<Tree> open = evaluated_trees(model, scene);
+    while (!open.empty()) {
+        const Tree tree = std::move(open.back());
+        open.pop_back();
+        for (const std::string& name : names_in(tree)) {
+            const std::size_t used = index_of(symbols, name);
+            if (used == symbols.size() || std::ranges::find(carried, used) != carried.end()) continue;
+            if (is_total_cost(model, used) && !is_form(form, FormKind::pontryagin)) continue;
+            for (const std::size_t k : together(model, used)) {
+                carried.push_back(k);
+                open.push_back(model.states[k].rate);
+            }
+        }
+    }
+    std::ranges::sort(carried);
+    return carried;
+}
+
+bool uses_other_states(const Model& model, const Tree& tree, const std::vector<std::size_t>& carried)
+{
+    if (carried.size() == model.states.size()) return false;
+    const std::vector<Symbol> symbols = symbols_of(model, Role::state);
+    return std::ranges::any_of(names_in(tree), [&](const std::string& name) {
+        const std::size_t k = index_of(symbols, name);
+        return k < symbols.size() && std::ranges::find(carried, k) == carried.end();
+    });
 }
 
 } // namespace lagen

@@ -1,10 +1,32 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Which forms of the equations of motion a model has, and what a scene means in one of them.
+/// The forms of the equations of motion: what is known of each stands in its one row. Where a form has an algorithm of
+/// its own (its equations, its kernels) a switch over FormKind without a default chooses it, so that the compiler names
+/// what a new form lacks. Which of them a model has, and what a scene means in one.
 #pragma once
 
-#include "model/form.hpp"
+#include "model/model.hpp"
 
 namespace lagen {
+
+enum class FormKind { lagrange, hamilton, pontryagin, discrete, first_order };
+
+struct EquationForm {
+    FormKind kind = FormKind::lagrange;
+    const char* name = "";             ///< as on the command line and in a scene
+    const char* suffix = "";           ///< of the generated class and its file, behind the model's name
+    const char* lane_group = "";       ///< the struct of the state's lanes behind the base coordinates
+    const char* lanes = "";            ///< what they are
+    bool momenta = false;              ///< are they the momenta? Else the fibre coordinates
+    bool steps = false;                ///< a motion from step to step, of which there are no rates
+    const char* needs = "";            ///< what a model lacks that has not this form: "no [control]"
+    bool (*exists)(const Model&) = {}; ///< does the model have what it needs?
+    int rank = 0;                      ///< the form of lowest rank that a model has is its default
+};
+
+[[nodiscard]] const EquationForm& entry_of(FormKind kind);
+/// Throws InternalError where there is no such form.
+[[nodiscard]] const EquationForm& form_named(const std::string& name);
+[[nodiscard]] bool is_form(const std::string& name, FormKind kind);
 
 /// The first of forms_of(); Lagrange's for a model that has none.
 [[nodiscard]] std::string default_form(const Model& model);
@@ -60,5 +82,14 @@ struct JumpObstacle {
 /// none), and ModelError where the scene cannot do in this form: Pontryagin's equations start from momenta, no other
 /// form has controls to observe, and none but the discrete one starts from an arrow; that one has no events.
 [[nodiscard]] Scene in_form(const Model& model, Scene scene, const std::string& form);
+
+/// Numbers of the states of [states], ascending, that forces, invariants or the scene's columns, events and time scale
+/// use, and those that these follow from. Without a scene, and where the scene does not choose its columns: all but
+/// `total_cost`, which is carried where it is named alone (without a scene in observables, invariants or events), and
+/// in Pontryagin's form.
+[[nodiscard]] std::vector<std::size_t> carried_states(const Model& model, const std::string& form, const Scene* scene);
+
+/// True where `tree` uses a state that is not among `carried`.
+[[nodiscard]] bool uses_other_states(const Model& model, const Tree& tree, const std::vector<std::size_t>& carried);
 
 } // namespace lagen

@@ -1,33 +1,35 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+/// The table of the format judges the shape of a file, and is printed as JSON Schema 2020-12, which knows no names of a
+/// model, and no sizes.
 #include "model/schema.hpp"
 
 #include "model/complaints.hpp"
 #include "model/read_values.hpp"
+#include "text/comma_list.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
+#include <sstream>
 
 namespace lagen {
 
-std::size_t place_of_kind(std::string_view block, std::string_view kind)
-{
-    std::size_t place = 0;
-    for (const KindRow& row : kind_rows()) {
-        if (row.block == block && row.kind == kind) break;
-        if (row.block == block) ++place;
-    }
-    return place;
-}
+namespace {
 
+/// The texts between blanks.
 std::vector<std::string> words_of(std::string_view words)
 {
     std::vector<std::string> out;
-    for (std::size_t at = 0; at < words.size();) {
-        const std::size_t end = std::min(words.find(' ', at), words.size());
-        if (end > at) out.emplace_back(words.substr(at, end - at));
-        at = end + 1;
-    }
+    std::istringstream in{std::string(words)};
+    for (std::string word; in >> word;) out.push_back(word);
     return out;
 }
+
+/// Keys of which `needs` of a table wants one, or forbids several.
+struct Need {
+    std::vector<std::string> keys;
+    bool optional;  ///< none will do
+    bool inclusive; ///< several will do
+};
 
 std::vector<Need> needs_of(const char* needs)
 {
@@ -42,6 +44,12 @@ std::vector<Need> needs_of(const char* needs)
     return out;
 }
 
+/// The words of a row, and how messages call several.
+struct KnownWords {
+    std::vector<std::string> words;
+    std::string noun;
+};
+
 KnownWords words_for(const SchemaRow& row)
 {
     const std::string_view words = row.words;
@@ -54,31 +62,7 @@ KnownWords words_for(const SchemaRow& row)
     return kinds;
 }
 
-namespace {
-
-const SchemaRow* schema_row(std::string_view path)
-{
-    static const auto index = [] {
-        std::map<std::string_view, const SchemaRow*> all;
-        for (const SchemaRow& each : schema_rows()) all.emplace(each.path, &each);
-        return all;
-    }();
-    const auto found = index.find(path);
-    return found == index.end() ? nullptr : found->second;
-}
-
-} // namespace
-
-const SchemaRow* row_below(const SchemaRow& parent, std::string_view key)
-{
-    const auto path = [&](std::string_view above) {
-        return above.empty() ? std::string(key) : fmt::format("{}.{}", above, key);
-    };
-    const SchemaRow* found = schema_row(path(parent.path));
-    const bool inner = parent.kind == ValueKind::algebroid; // its keys are those of [algebroid]
-    return found != nullptr || !inner ? found : schema_row(path("algebroid"));
-}
-
+/// The keys of a table, names that the file chooses apart.
 std::vector<std::string> keys_below(const SchemaRow& parent)
 {
     std::vector<std::string> keys;
@@ -94,59 +78,16 @@ std::vector<std::string> keys_below(const SchemaRow& parent)
     return keys;
 }
 
-Item::Item(const TomlEntry& document) : entry_(&document), row_(schema_row("")), title_(row_->title) {}
-
-std::string Item::title_of(const std::string& name) const
+const SchemaRow* schema_row(std::string_view path)
 {
-    std::vector<std::string> names = names_;
-    names.resize(3);
-    if (!names_.empty()) names[names_.size() - 1] = name;
-    return fmt::format(fmt::runtime(row_->title), names[0], names[1], names[2]);
+    static const auto index = [] {
+        std::map<std::string_view, const SchemaRow*> all;
+        for (const SchemaRow& each : schema_rows()) all.emplace(each.path, &each);
+        return all;
+    }();
+    const auto found = index.find(path);
+    return found == index.end() ? nullptr : found->second;
 }
-
-Item Item::below(const TomlEntry& entry) const
-{
-    Item item;
-    item.names_ = names_;
-    item.row_ = row_below(*row_, entry.name());
-    if (item.row_ == nullptr) {
-        item.row_ = row_below(*row_, "*");
-        item.names_.push_back(entry.name());
-    }
-    if (item.row_ == nullptr) return {};
-    item.entry_ = &entry;
-    const bool is_block = entry.value.kind == TomlKind::table && title_.ends_with(']');
-    item.title_ = *item.row_->title != '\0' ? item.title_of(item.names_.empty() ? "" : item.names_.back())
-                  : row_->path.empty()      ? fmt::format("[{}]", entry.name())
-                  : is_block                ? fmt::format("{}.{}]", title_.substr(0, title_.size() - 1), entry.name())
-                                            : fmt::format("'{}' of {}", entry.name(), title_);
-    return item;
-}
-
-Item Item::at(std::string_view key) const
-{
-    if (!is(TomlKind::table)) return {};
-    const auto found = std::ranges::find(entry_->value.entries, key, &TomlEntry::name);
-    return found == entry_->value.entries.end() ? Item() : below(*found);
-}
-
-std::vector<Item> Item::items() const
-{
-    std::vector<Item> out;
-    if (is(TomlKind::table))
-        for (const TomlEntry& each : entry_->value.entries) out.push_back(below(each));
-    return out;
-}
-
-std::vector<Excerpt> Item::texts() const
-{
-    std::vector<Excerpt> out;
-    if (entry_ != nullptr)
-        for (const TomlValue& each : entry_->value.items) out.push_back(each.text);
-    return out;
-}
-
-namespace {
 
 /// The row of the word that `kind` of a block is; null for blocks without kinds.
 const KindRow* kind_of(const Item& block)
@@ -239,10 +180,8 @@ bool fits(ValueKind wanted, TomlKind kind)
     const char* hint = *item.row().hint != '\0' ? item.row().hint
                        : listed                 ? "one entry is written [\"..\"], several [\"..\", \"..\"]"
                                                 : "";
-    const std::string found = wanted == interval && value.kind == TomlKind::array
-                                  ? fmt::format("an array of {}", value.items.size())
-                              : value.kind == TomlKind::array && value.items.empty() ? "an empty array"
-                                                                                     : kind_text(value.kind);
+    const std::string found =
+        value.kind == TomlKind::array && value.items.empty() ? "an empty array" : kind_text(value.kind);
     throw complain::is_not(what, found, written_as(wanted).wanted, value.where, hint);
 }
 
@@ -263,16 +202,223 @@ void require_entries(const Item& item, const TomlValue& value, ValueKind wanted)
     }
 }
 
+/// Throws ModelError unless an array or table has as many entries as its row says.
+void require_count(const Item& item)
+{
+    const SchemaRow& row = item.row();
+    const TomlValue& value = item.value();
+    const std::size_t count = value.items.size() + value.entries.size();
+    const auto least = static_cast<std::size_t>(row.least), most = static_cast<std::size_t>(row.most);
+    if (*row.things == '\0' || (count >= least && (most == 0 || count <= most))) return;
+    if (least != most && count >= least) throw complain::too_many(item.title(), count, row.things, most, value.where);
+    throw complain::is_not(item.title(), count == 0 ? "an empty array" : fmt::format("an array of {}", count),
+                           fmt::format("an array of {}{} {}", least, least == most ? "" : " or more", row.things),
+                           value.where, row.hint);
+}
+
+Record reference(const char* name)
+{
+    return {{"$ref", fmt::format("#/$defs/{}", name)}};
+}
+
+Record typed(const char* type)
+{
+    return {{"type", type}};
+}
+
+Record any_of(std::initializer_list<Record> schemas)
+{
+    Record list = Record::array();
+    for (const Record& each : schemas) list.push_back(each);
+    return {{"anyOf", list}};
+}
+
+Record list_with(const Record& items)
+{
+    return {{"type", "array"}, {"items", items}};
+}
+
+Record requires_all(const std::vector<std::string>& keys)
+{
+    return {{"required", keys}};
+}
+
+/// The conditions that `needs` of a table says.
+void append_needs(Record& conditions, const char* needs)
+{
+    for (const auto& [keys, optional, inclusive] : needs_of(needs)) {
+        if (keys.size() == 1)
+            conditions.push_back(requires_all(keys));
+        else if (!optional)
+            conditions.push_back({{inclusive ? "anyOf" : "oneOf",
+                                   list_of(keys, [](const std::string& key) { return requires_all({key}); })}});
+        for (std::size_t a = 0; optional && a < keys.size(); ++a)
+            for (std::size_t b = a + 1; b < keys.size(); ++b)
+                conditions.push_back({{"not", requires_all({keys[a], keys[b]})}});
+    }
+}
+
+/// The conditions of each word of `kind`; the first word stands where there is none in [algebroid].
+void append_kinds(Record& conditions, std::string_view block)
+{
+    bool first = block == "algebroid";
+    for (const KindRow& row : kind_rows()) {
+        if (row.block != block) continue;
+        Record condition{{"properties", {{"kind", {{"const", row.kind}}}}}};
+        if (!first) condition["required"] = {"kind"};
+        first = false;
+        std::vector<std::string> keys = words_of(row.keys);
+        for (const char* each : {"kind", "fibre", "momenta"}) keys.emplace_back(each);
+        Record needs = Record::array();
+        append_needs(needs, row.needs);
+        Record then{{"propertyNames", {{"enum", keys}}}};
+        add_unless_empty(then, "allOf", needs);
+        conditions.push_back({{"if", condition}, {"then", then}});
+    }
+}
+
+Record schema_of(const SchemaRow& row);
+
+Record table_of(const SchemaRow& row)
+{
+    Record properties = Record::object();
+    for (const std::string& key : keys_below(row)) properties[key] = schema_of(*row_below(row, key));
+    Record schema{{"type", "object"}};
+    add_unless_empty(schema, "properties", properties);
+    const SchemaRow* any = row_below(row, "*");
+    schema["additionalProperties"] = any == nullptr ? Record(false) : schema_of(*any);
+    Record conditions = Record::array();
+    append_needs(conditions, row.needs);
+    append_kinds(conditions, row.path == "algebroid.of" ? "algebroid" : row.path);
+    add_unless_empty(schema, "allOf", conditions);
+    return schema;
+}
+
+Record shape_of(const SchemaRow& row)
+{
+    switch (row.kind) {
+    case ValueKind::text: return typed("string");
+    case ValueKind::word: return {{"enum", words_for(row).words}};
+    case ValueKind::strings: return reference("strings");
+    case ValueKind::flag: return typed("boolean");
+    case ValueKind::count: return {{"type", "integer"}, {"minimum", row.least}, {"maximum", row.most}};
+    case ValueKind::expression: return reference("expression");
+    case ValueKind::array: return reference("array");
+    case ValueKind::matrices:
+    case ValueKind::interval: return list_with(reference("array"));
+    case ValueKind::times: return list_with(reference("expression"));
+    case ValueKind::panels: return list_with(any_of({typed("string"), reference("strings")}));
+    case ValueKind::table: return table_of(row);
+    case ValueKind::line: return any_of({table_of(row), reference("array")});
+    case ValueKind::file: return any_of({table_of(row), typed("string")});
+    case ValueKind::algebroid: return any_of({reference("algebroid"), typed("string"), reference("strings")});
+    case ValueKind::later: return Record::object();
+    }
+    return Record::object();
+}
+
+/// With its documentation, and the names that an expression may use.
+Record schema_of(const SchemaRow& row)
+{
+    std::string text = row.text;
+    if (row.roles == any_role) {
+        text += "; may use every name of the model";
+    } else if (row.roles != Roles()) {
+        std::vector<std::string> names;
+        for (Role role = Role::time; role < Role::built_in; role = static_cast<Role>(static_cast<int>(role) + 1))
+            if (row.roles.has(role)) names.push_back(role_plural(role));
+        text += "; may use " + comma_list(names);
+    }
+    Record schema{{"description", text}};
+    schema.update(shape_of(row));
+    if (*row.things == '\0') return schema;
+    const bool is_table = row.kind == ValueKind::table;
+    if (row.least > 0) schema[is_table ? "minProperties" : "minItems"] = row.least;
+    if (row.most > 0) schema[is_table ? "maxProperties" : "maxItems"] = row.most;
+    return schema;
+}
+
 } // namespace
+
+std::size_t place_of_kind(std::string_view block, std::string_view kind)
+{
+    std::size_t place = 0;
+    for (const KindRow& row : kind_rows()) {
+        if (row.block == block && row.kind == kind) break;
+        if (row.block == block) ++place;
+    }
+    return place;
+}
+
+const SchemaRow* row_below(const SchemaRow& parent, std::string_view key)
+{
+    const auto path = [&](std::string_view above) {
+        return above.empty() ? std::string(key) : fmt::format("{}.{}", above, key);
+    };
+    const SchemaRow* found = schema_row(path(parent.path));
+    const bool inner = parent.kind == ValueKind::algebroid; // its keys are those of [algebroid]
+    return found != nullptr || !inner ? found : schema_row(path("algebroid"));
+}
+
+Item::Item(const TomlEntry& document) : entry_(&document), row_(schema_row("")), title_(row_->title) {}
+
+std::string Item::title_of(const std::string& name) const
+{
+    std::vector<std::string> names = names_;
+    names.resize(3);
+    if (!names_.empty()) names[names_.size() - 1] = name;
+    return fmt::format(fmt::runtime(row_->title), names[0], names[1], names[2]);
+}
+
+Item Item::below(const TomlEntry& entry) const
+{
+    Item item;
+    item.names_ = names_;
+    item.row_ = row_below(*row_, entry.name());
+    if (item.row_ == nullptr) {
+        item.row_ = row_below(*row_, "*");
+        item.names_.push_back(entry.name());
+    }
+    if (item.row_ == nullptr) return {};
+    item.entry_ = &entry;
+    const bool is_block = entry.value.kind == TomlKind::table && title_.ends_with(']');
+    item.title_ = *item.row_->title != '\0' ? item.title_of(item.names_.empty() ? "" : item.names_.back())
+                  : row_->path.empty()      ? fmt::format("[{}]", entry.name())
+                  : is_block                ? fmt::format("{}.{}]", title_.substr(0, title_.size() - 1), entry.name())
+                                            : fmt::format("'{}' of {}", entry.name(), title_);
+    return item;
+}
+
+Item Item::at(std::string_view key) const
+{
+    if (!is(TomlKind::table)) return {};
+    const auto found = std::ranges::find(entry_->value.entries, key, &TomlEntry::name);
+    return found == entry_->value.entries.end() ? Item() : below(*found);
+}
+
+std::vector<Item> Item::items() const
+{
+    std::vector<Item> out;
+    if (is(TomlKind::table))
+        for (const TomlEntry& each : entry_->value.entries) out.push_back(below(each));
+    return out;
+}
+
+std::vector<Excerpt> Item::texts() const
+{
+    std::vector<Excerpt> out;
+    if (entry_ != nullptr)
+        for (const TomlValue& each : entry_->value.items) out.push_back(each.text);
+    return out;
+}
 
 void require_shape(const Item& item)
 {
     using enum ValueKind;
     const TomlValue& value = item.value();
     const ValueKind kind = item.row().kind;
-    const bool wrong_size = value.kind == TomlKind::array && ((kind == interval && value.items.size() != 2) ||
-                                                              (kind == matrices && value.items.empty()));
-    if (!fits(kind, value.kind) || wrong_size) refuse_kind(item, value, item.title(), kind);
+    if (!fits(kind, value.kind)) refuse_kind(item, value, item.title(), kind);
+    require_count(item);
     if (kind == later)
         throw ModelError(
             fmt::format("{} belongs to the model format, but this version of lagen does not read it", item.title()),
@@ -293,6 +439,28 @@ void require_shape(const Item& item)
     if (value.kind != TomlKind::table) return;
     require_keys(item);
     for (const Item& each : item.items()) require_shape(each);
+}
+
+Record json_schema()
+{
+    const SchemaRow& root = schema_rows().front();
+    const Record number_or_text{{"type", {"number", "string"}}};
+    Record schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+                  {"title", "lagen model"},
+                  {"description", root.text}};
+    schema.update(table_of(root));
+    Record& definitions = schema["$defs"];
+    definitions["expression"] = number_or_text;
+    definitions["array"] = any_of({number_or_text, list_with(any_of({number_or_text, list_with(number_or_text)}))});
+    definitions["strings"] = list_with(typed("string"));
+    for (const SchemaRow& row : schema_rows())
+        if (row.kind == ValueKind::algebroid) definitions["algebroid"] = table_of(row);
+    return schema;
+}
+
+std::string json_schema_text()
+{
+    return json_schema().dump(2) + "\n";
 }
 
 } // namespace lagen

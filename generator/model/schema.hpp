@@ -41,40 +41,17 @@ struct SchemaRow {
     const char* words = ""; ///< of a word; those after a ':' are how messages call several
     const char* needs =
         ""; ///< keys of a table: "a" must be there, "a|b" one of them, "a/b" at least one, with '?' none will do
-    const char* hint = "";    ///< how it is written
-    long least = 0, most = 0; ///< of a count
+    const char* hint = ""; ///< how it is written
+    long least = 0,
+         most = 0; ///< of a count, and of the entries of an array or table that has `things`; most 0: any number
+    const char* things = ""; ///< how messages call the entries: "times"
 
-    constexpr SchemaRow one_of(const char* all) const
-    {
-        SchemaRow row = *this;
-        row.words = all;
-        return row;
-    }
-    constexpr SchemaRow needing(const char* keys) const
-    {
-        SchemaRow row = *this;
-        row.needs = keys;
-        return row;
-    }
-    constexpr SchemaRow like(const char* example) const
-    {
-        SchemaRow row = *this;
-        row.hint = example;
-        return row;
-    }
-    constexpr SchemaRow any_function() const
-    {
-        SchemaRow row = *this;
-        row.nonsmooth = true;
-        return row;
-    }
-    constexpr SchemaRow within(long a, long b) const
-    {
-        SchemaRow row = *this;
-        row.least = a;
-        row.most = b;
-        return row;
-    }
+    constexpr SchemaRow& one_of(const char* all) { return words = all, *this; }
+    constexpr SchemaRow& needing(const char* keys) { return needs = keys, *this; }
+    constexpr SchemaRow& like(const char* example) { return hint = example, *this; }
+    constexpr SchemaRow& any_function() { return nonsmooth = true, *this; }
+    constexpr SchemaRow& within(long a, long b) { return least = a, most = b, *this; }
+    constexpr SchemaRow& of(const char* entries, long a, long b = 0) { return things = entries, within(a, b); }
 };
 
 /// The keys that go with one word of the key `kind` of a block, besides that key.
@@ -88,26 +65,8 @@ struct KindRow {
 [[nodiscard]] std::span<const SchemaRow> schema_rows();
 /// The row of what stands behind `key` ("*": behind a name that the file chooses) in a table; null where there is none.
 [[nodiscard]] const SchemaRow* row_below(const SchemaRow& parent, std::string_view key);
-/// The keys of a table, names that the file chooses apart.
-[[nodiscard]] std::vector<std::string> keys_below(const SchemaRow& parent);
-
 /// The keys of some words of `kind`, in the order of the enumerations AlgebroidKind and GroupoidKind.
 [[nodiscard]] std::span<const KindRow> kind_rows();
-
-/// The words of a row, and how messages call several.
-struct KnownWords {
-    std::vector<std::string> words;
-    std::string noun;
-};
-[[nodiscard]] KnownWords words_for(const SchemaRow& row);
-
-/// Keys of which `needs` of a table wants one, or forbids several.
-struct Need {
-    std::vector<std::string> keys;
-    bool optional;  ///< none will do
-    bool inclusive; ///< several will do
-};
-[[nodiscard]] std::vector<Need> needs_of(const char* needs);
 
 /// The place of a word among those of its block.
 [[nodiscard]] std::size_t place_of_kind(std::string_view block, std::string_view kind);
@@ -159,9 +118,6 @@ class Item {
 /// Throws ModelError where the value, or one inside it, is not of the shape that the table asks for: an unknown key, a
 /// value of another kind, a key that is missing or stands beside one that it excludes.
 void require_shape(const Item& item);
-
-/// The texts between blanks; between commas in messages.
-[[nodiscard]] std::vector<std::string> words_of(std::string_view words);
 
 /// JSON Schema 2020-12 of model files and morphism files, and its text.
 [[nodiscard]] Record json_schema();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The rows of the format, in the order in which they are documented.
+#include "geometry/named_algebra.hpp"
 #include "model/schema.hpp"
 
 namespace lagen {
@@ -12,6 +13,7 @@ using enum ValueKind;
 constexpr Roles constants = Role::parameter;
 constexpr Roles point = constants | Role::base;
 constexpr Roles velocity = point | Role::time | Role::fibre;
+constexpr Roles drifting = point | Role::time | Role::state | Role::input;
 constexpr Roles pushing = velocity | Role::state | Role::input;
 constexpr Roles phase = point | Role::time | Role::momentum;
 constexpr Roles controlled = point | Role::time | Role::control;
@@ -62,7 +64,8 @@ constexpr SchemaRow rows[] = {
         "the entry '{1}' of the bracket of '{0}'", point),
     row("algebroid.representation", matrices, "a matrix a section, which acts on the base vector", "'representation'",
         constants)
-        .like("representation = [A_1, ..], one matrix a section"),
+        .like("representation = [A_1, ..], one matrix a section")
+        .of("matrices", 1),
     row("algebroid.spanned_by", table, "vector fields that span the subbundle, a line a section")
         .like("spanned_by = { a = { x = \"..\" } }, a line a section"),
     row("algebroid.spanned_by.*", line, "components of a section, or the rate of a coordinate", "the section '{0}'"),
@@ -82,7 +85,8 @@ constexpr SchemaRow rows[] = {
     row("algebroid.drift.*", array, "its component on an ambient section", "the component '{0}' of the drift",
         point | Role::time),
     row("algebroid.constraints", strings, "functions, affine in the ambient velocities, that are zero")
-        .like("constraints = [\"..\"]"),
+        .like("constraints = [\"..\"]; without one the algebroid is that of [algebroid.of]")
+        .of("constraints", 1),
     row("algebroid.of", ValueKind::algebroid, "the algebroid inside: a table, or the file of a model")
         .like("of = \"file.toml\", a table [algebroid.of], or of a product of = [\"a.toml\", \"b.toml\"]"),
     row("algebroid.of.fibre", strings, "names of the coordinates of the inner fibre"),
@@ -91,7 +95,8 @@ constexpr SchemaRow rows[] = {
     row("groupoid.kind", word, "what kind of groupoid it is").like("kinds: pair, group, action, atiyah"),
     row("groupoid.group", text, "a group by its name: SO(3), SE(2), GL(n), R^n, a sum A + B").like("group = \"SO(3)\""),
     row("groupoid.generators", matrices, "matrices that generate the group", "", constants)
-        .like("generators = [[[0, -1], [1, 0]]], one matrix a section"),
+        .like("generators = [[[0, -1], [1, 0]]], one matrix a section")
+        .of("matrices", 1, named_algebra_rank_limit),
     row("groupoid.element", text, "name of the matrix of a group element: W where left out"),
     row("groupoid.action", table, "the right action of the element on the base")
         .like("action = { x = \"..\" }, the right action x.W, a line a base coordinate"),
@@ -107,6 +112,9 @@ constexpr SchemaRow rows[] = {
     row("discrete.retraction", word, "the map from the algebra to the group").one_of("cayley exp :retractions"),
     row("definitions", table, "named expressions and functions"),
     row("definitions.*", expression, "an expression", "the definition '{0}'"),
+    row("rates", table, "the rates of a system of first order, one a base coordinate")
+        .like("[rates] x = \"..\", one a base coordinate"),
+    row("rates.*", expression, "the time derivative of a base coordinate", "the rate of '{0}'", drifting),
     row("lagrangian", table, "the Lagrangian").needing("L"),
     row("lagrangian.L", expression, "a function on E", "the Lagrangian", velocity).like("[lagrangian] L = \"..\""),
     row("hamiltonian", table, "the Hamiltonian").needing("H"),
@@ -118,7 +126,7 @@ constexpr SchemaRow rows[] = {
     row("dissipation.R", expression, "Rayleigh's function, whose -dR/dy is a force", "the Rayleigh function", velocity)
         .like("[dissipation] R = \"..\""),
     row("control", table, "an optimal control problem").needing("controls sigma cost"),
-    row("control.controls", strings, "names of the controls").like("controls = [\"u1\", \"u2\"]"),
+    row("control.controls", strings, "names of the controls").like("controls = [\"u1\", \"u2\"]").of("controls", 1),
     row("control.sigma", table, "the section of E that the motion follows")
         .like("sigma = { a = \"..\" } for sigma = sigma^a e_a"),
     row("control.sigma.*", array, "its component on a section", "sigma along '{0}'", controlled | Role::input),
@@ -126,7 +134,8 @@ constexpr SchemaRow rows[] = {
         .like("cost = \"u^2/2\"; cost = 1 asks for the least time"),
     row("control.bounds", table, "intervals of the controls"),
     row("control.bounds.*", interval, "lower and upper bound, -inf or inf for none", "the interval of '{0}'", constants)
-        .like("write u = [lower, upper]"),
+        .like("write u = [lower, upper]")
+        .of("bounds (a lower and an upper one)", 2, 2),
     row("control.guess", table, "where the search for the controls begins"),
     row("control.guess.*", array, "a guess of a control", "the guess of '{0}'", phase).any_function(),
     row("control.boundary", table, "the ends of the motion"),
@@ -179,11 +188,12 @@ constexpr SchemaRow rows[] = {
     row("about.*.text", text, "what it is", "the text of '{0}'"),
     row("about.*.unit", text, "its unit", "the unit of '{0}'"),
     row("about.*.latex", text, "its formula in LaTeX", "the latex of '{0}'"),
-    row("scene", table, "set-ups to simulate", "[scene]"),
+    row("scene", table, "set-ups to simulate", "[scene]").of("scenes", 0, 200), // they are copied along 'like'
     row("scene.*", table, "one of them", "scene '{0}'")
         .needing("sample|samples|at? tolerance|relative? tolerance|absolute?"),
     row("scene.*.like", text, "the scene that it starts from as a copy"),
-    row("scene.*.form", word, "the form of the equations").one_of("lagrange hamilton pontryagin discrete :forms"),
+    row("scene.*.form", word, "the form of the equations")
+        .one_of("lagrange hamilton pontryagin discrete first_order :forms"),
     row("scene.*.method", text, "the method that integrates them, see lagen methods"),
     row("scene.*.rest", flag, "fibre coordinates left out are zero"),
     row("scene.*.project", flag, "move the start onto the constraints"),
@@ -196,7 +206,7 @@ constexpr SchemaRow rows[] = {
     row("scene.*.time_scale", expression, "a scale of the steps of a splitting", "", any_role),
     row("scene.*.sample", expression, "a row each so often, or at each event of this name", "", constants),
     row("scene.*.samples", count, "the number of rows").within(2, 10'000'000),
-    row("scene.*.at", times, "the times of the rows", "", constants),
+    row("scene.*.at", times, "the times of the rows", "", constants).of("times", 0, 100'000),
     row("scene.*.initial", table, "the start"),
     row("scene.*.initial.*", array, "the initial value of a coordinate, momentum or state",
         "the initial value of '{1}'", constants),
@@ -212,7 +222,7 @@ constexpr SchemaRow rows[] = {
     row("scene.*.next.*", array, "the next value of a base coordinate", "the next value of '{1}'", constants),
     row("scene.*.steps", count, "the number of steps of a discrete scene").within(1, 1'000'000'000),
     row("scene.*.observe", strings, "the columns: names, expressions, or state for all states"),
-    row("scene.*.events", table, "crossings of zero that are looked for"),
+    row("scene.*.events", table, "crossings of zero that are looked for").of("events", 0, 1000),
     row("scene.*.events.*", table, "one of them", "event '{1}' of scene '{0}'").needing("when"),
     row("scene.*.events.*.when", expression, "the function that crosses zero", "", any_role)
         .any_function()
@@ -237,7 +247,8 @@ constexpr SchemaRow rows[] = {
     row("morphism.source", text, "the file of the model where it starts").like(ends),
     row("morphism.target", text, "the file of the model where it ends").like(ends),
     row("morphism.compose", strings, "files of morphisms that follow each other")
-        .like("compose = [\"first.toml\", \"second.toml\"]"),
+        .like("compose = [\"first.toml\", \"second.toml\"]")
+        .of("morphism files", 2),
     row("morphism.equals", text, "the file of a morphism that is claimed to be the same map"),
     row("morphism.base", table, "coordinates of the target over those of the source"),
     row("morphism.base.*", array, "a base coordinate of the target", "the value of '{0}'"),
@@ -249,7 +260,8 @@ constexpr SchemaRow rows[] = {
     row("morphism.controls.*", array, "a control of the target", "the value of '{0}'"),
     row("morphism.element", array, "the group element of the target over arrows of the source", "the element"),
     row("compose", strings, "files of morphisms that follow each other", "'compose' of [morphism]")
-        .like("compose = [\"first.toml\", \"second.toml\"]"),
+        .like("compose = [\"first.toml\", \"second.toml\"]")
+        .of("morphism files", 2),
 };
 
 constexpr KindRow kinds[] = {
@@ -264,6 +276,7 @@ constexpr KindRow kinds[] = {
     {"algebroid", "prolongation", "of bundle", "of"},
     {"algebroid", "level_set", "", ""},
     {"algebroid", "nonholonomic", "of sections drift constraints", "of sections/constraints"},
+    {"algebroid", "first_order", "", ""},
     {"groupoid", "pair", "", ""},
     {"groupoid", "group", "group generators element", "group|generators"},
     {"groupoid", "action", "group generators element action", "group|generators action"},

@@ -26,11 +26,24 @@ namespace lagen {
 
 namespace {
 
+constexpr std::size_t milestone = 64;
+
 /// From (line, column in code points), as a TOML parser counts, to bytes of the file.
 class SourcePositions {
   public:
     /// `text` must outlive this object.
-    explicit SourcePositions(std::string_view text);
+    explicit SourcePositions(std::string_view text) : text_(text)
+    {
+        constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+        std::size_t at = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+        lines_.push_back({at, 0});
+        for (std::size_t character = 0; at < text.size(); ++character) {
+            if (character % milestone == 0) milestones_.push_back(at);
+            const bool ends_line = text[at] == '\n';
+            at += std::max<std::size_t>(1, decode_utf8(text, at).length);
+            if (ends_line) lines_.push_back({at, character + 1});
+        }
+    }
 
     /// The byte where the character at `line`, `column` (both from 1) starts; past the end of a line its end, past the
     /// end of the text the text's end.
@@ -43,24 +56,8 @@ class SourcePositions {
     };
     std::string_view text_;
     std::vector<Line> lines_;
-    std::vector<std::size_t>
-        milestones_; ///< the byte of every 64th character, so that long lines cost no more than short ones
+    std::vector<std::size_t> milestones_; ///< bytes of every 64th character: long lines cost no more than short ones
 };
-
-constexpr std::size_t milestone = 64;
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-
-SourcePositions::SourcePositions(std::string_view text) : text_(text)
-{
-    std::size_t at = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
-    lines_.push_back({at, 0});
-    for (std::size_t character = 0; at < text.size(); ++character) {
-        if (character % milestone == 0) milestones_.push_back(at);
-        const bool ends_line = text[at] == '\n';
-        at += std::max<std::size_t>(1, decode_utf8(text, at).length);
-        if (ends_line) lines_.push_back({at, character + 1});
-    }
-}
 
 std::size_t SourcePositions::byte_of(std::size_t line, std::size_t column) const
 {
@@ -70,111 +67,40 @@ std::size_t SourcePositions::byte_of(std::size_t line, std::size_t column) const
     const std::size_t character = lines_[line - 1].character + std::max<std::size_t>(1, column) - 1;
     if (character / milestone >= milestones_.size()) return line_end;
     std::size_t at = milestones_[character / milestone];
-    for (std::size_t k = 0; k < character % milestone && at < line_end; ++k) {
+    for (std::size_t k = 0; k < character % milestone && at < line_end; ++k)
         at += std::max<std::size_t>(1, decode_utf8(text_, at).length);
-    }
     return std::min(at, line_end);
 }
 
-void append_utf8(std::string& out, unsigned long c)
+/// The byte that each byte of `value` came from, as bytes [begin, end) of the text say it, as far as the two agree.
+std::vector<std::size_t> origins_of(std::string_view value, std::string_view text, std::size_t begin, std::size_t end,
+                                    bool escapes)
 {
-    const auto push = [&out](unsigned long byte) { out.push_back(static_cast<char>(byte)); };
-    if (c < 0x80) {
-        push(c);
-    } else if (c < 0x800) {
-        push(0xC0 | (c >> 6));
-        push(0x80 | (c & 0x3F));
-    } else if (c < 0x10000) {
-        push(0xE0 | (c >> 12));
-        push(0x80 | ((c >> 6) & 0x3F));
-        push(0x80 | (c & 0x3F));
-    } else {
-        push(0xF0 | (c >> 18));
-        push(0x80 | ((c >> 12) & 0x3F));
-        push(0x80 | ((c >> 6) & 0x3F));
-        push(0x80 | (c & 0x3F));
-    }
-}
-
-unsigned long hexadecimal(std::string_view digits)
-{
-    unsigned long value = 0;
-    for (const char d : digits) {
-        const unsigned digit = d <= '9' ? static_cast<unsigned>(d - '0') : static_cast<unsigned>((d | 0x20) - 'a' + 10);
-        value = value * 16 + digit;
-    }
-    return value;
-}
-
-char simple_escape(char c)
-{
-    switch (c) {
-    case 'b': return '\b';
-    case 't': return '\t';
-    case 'n': return '\n';
-    case 'f': return '\f';
-    case 'r': return '\r';
-    case 'e': return '\x1b';
-    default: return c;
-    }
-}
-
-/// The literal's text between its quotes, consumed from left to right into an excerpt.
-class Decoder {
-  public:
-    Decoder(Excerpt& out, std::size_t begin, std::size_t end) : out_(out), at_(begin), end_(end) {}
-
-    void run(bool escapes)
-    {
-        const std::string& text = out_.file->text;
-        while (at_ < end_) {
-            if (escapes && text[at_] == '\\' && at_ + 1 < end_) {
-                escape();
-            } else {
-                out_.text.push_back(text[at_]);
-                out_.origin.push_back(at_++);
-            }
-        }
-        out_.origin.push_back(end_);
-    }
-
-  private:
-    void escape()
-    {
-        const std::string& text = out_.file->text;
-        const std::size_t start = at_;
-        const char c = text[at_ + 1];
-        at_ += 2;
-        if (c == ' ' || c == '\t' || c == '\n' ||
-            c == '\r') { // a line-ending backslash swallows the white space after it
-            while (at_ < end_ && std::string_view(" \t\r\n").find(text[at_]) != std::string_view::npos) ++at_;
-            return;
-        }
-        std::string piece;
-        const std::size_t digits = c == 'u' ? 4 : c == 'U' ? 8 : 0;
-        if (digits != 0 && at_ + digits <= end_) {
-            append_utf8(piece, hexadecimal(std::string_view(text).substr(at_, digits)));
-            at_ += digits;
+    constexpr std::string_view blanks = " \t\r\n";
+    std::vector<std::size_t> origins;
+    for (std::size_t at = begin; at < end && origins.size() < value.size();) {
+        const char next = text[std::min(at + 1, end - 1)];
+        if (!escapes || text[at] != '\\') {
+            if (text[at] != value[origins.size()]) break;
+            origins.push_back(at++);
+        } else if (blanks.find(next) != std::string_view::npos) { // at the end of a line: the blanks behind it go
+            at = std::min(text.find_first_not_of(blanks, at + 1), end);
         } else {
-            piece.push_back(simple_escape(c));
+            const bool by_number = next == 'u' || next == 'U';
+            origins.insert(origins.end(), by_number ? decode_utf8(value, origins.size()).length : 1, at);
+            at += next == 'u' ? 6 : next == 'U' ? 10 : 2;
         }
-        out_.text += piece;
-        out_.origin.insert(out_.origin.end(), piece.size(), start);
     }
+    return origins;
+}
 
-    Excerpt& out_;
-    std::size_t at_;
-    std::size_t end_;
-};
-
-/// Decodes the literal (basic, literal, multi-line of either, or a bare key) that starts at byte `begin` of the file
-/// and ends before `end`. `value` is what the TOML parser read there; where decoding disagrees with it (it never
-/// should), every byte is said to come from `begin`, so that positions are coarse but never wrong in content.
+/// The excerpt of `value`, which the TOML parser read in the literal (basic, literal, multi-line of either, or a bare
+/// key) from byte `begin` of the file to before `end`. Where the literal does not say that (it always should), every
+/// byte is said to come from `begin`, so that positions are coarse.
 Excerpt decode_string(const std::shared_ptr<const SourceFile>& file, std::size_t begin, std::size_t end,
                       const std::string& value)
 {
     const std::string_view literal = std::string_view(file->text).substr(begin, end - begin);
-    Excerpt out{file, {}, {}};
     std::size_t quotes = 0;
     bool escapes = false;
     for (const std::string_view quote : {"\"\"\"", "'''", "\"", "'"}) {
@@ -186,12 +112,11 @@ Excerpt decode_string(const std::shared_ptr<const SourceFile>& file, std::size_t
     std::size_t first = begin + quotes;
     if (quotes == 3 && literal.substr(3).starts_with("\r\n")) first += 2;
     if (quotes == 3 && literal.substr(3).starts_with("\n")) first += 1;
-    Decoder(out, first, end - quotes).run(escapes);
-    if (out.text != value) {
-        out.text = value;
-        out.origin.assign(value.size(), begin);
-        out.origin.push_back(end);
-    }
+    Excerpt out{file, value, origins_of(value, file->text, first, end - quotes, escapes)};
+    if (out.origin.size() == value.size())
+        out.origin.push_back(end - quotes);
+    else
+        out.origin.assign(value.size() + 1, begin);
     return out;
 }
 

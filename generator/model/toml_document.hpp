@@ -12,6 +12,12 @@ namespace lagen {
 
 enum class TomlKind { string, integer, decimal, boolean, date, array, table };
 
+/// The place of a text in its file.
+[[nodiscard]] inline SourceRange place_of(const Excerpt& text)
+{
+    return text.range(0, text.text.size());
+}
+
 struct TomlEntry;
 
 struct TomlValue {
@@ -30,7 +36,7 @@ struct TomlEntry {
     TomlValue value;
 
     [[nodiscard]] const std::string& name() const { return key.text; }
-    [[nodiscard]] SourceRange where() const { return key.range(0, key.text.size()); }
+    [[nodiscard]] SourceRange where() const { return place_of(key); }
 };
 
 /// Parses TOML 1.0. Throws ModelError for invalid UTF-8, forbidden control characters, syntax errors, duplicate keys

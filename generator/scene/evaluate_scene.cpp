@@ -3,8 +3,6 @@
 #include "scene/evaluate_scene.hpp"
 
 #include "geometry/group_relations.hpp"
-#include "model/carried_states.hpp"
-#include "model/dependency_order.hpp"
 #include "model/families.hpp"
 #include "model/scene_form.hpp"
 

@@ -5,8 +5,8 @@
 #include "model/families.hpp"
 #include "model/model_reader.hpp"
 #include "model/plain_names.hpp"
-#include "model/read_file.hpp"
 #include "model/read_values.hpp"
+#include "scene/csv_fields.hpp"
 
 #include <fmt/format.h>
 
@@ -28,20 +28,10 @@ Excerpt plain_text(const std::string& path)
     return whole_text(path, std::move(text));
 }
 
-/// Cells of a line, quotes around them taken away.
-std::vector<Excerpt> cells_of(const Excerpt& line)
-{
-    std::vector<Excerpt> cells = split_at_commas(line);
-    for (Excerpt& cell : cells)
-        if (cell.text.size() > 1 && cell.text.starts_with('"') && cell.text.ends_with('"'))
-            cell = trimmed(cell, 1, cell.text.size() - 1);
-    return cells;
-}
-
 class InputTableReader {
   public:
     InputTableReader(const Model& model, const Scene& scene)
-        : symbols_(input_symbols(model)), known_(all_names(model)), scene_(scene)
+        : symbols_(symbols_of(model, Role::input)), known_(all_names(model)), scene_(scene)
     {
         const std::string path = input_table_path(model, scene);
         try {
@@ -73,7 +63,7 @@ class InputTableReader {
                 throw ModelError(
                     fmt::format("the time {} stands behind {} in the table of inputs, where times increase", row[0],
                                 rows.back()[0]),
-                    whole(cells_of(line)[time_column_]));
+                    place_of(line, csv_fields(line.text)[time_column_]));
             rows.push_back(row);
         }
         if (rows.empty())
@@ -93,6 +83,7 @@ class InputTableReader {
 
   private:
     static SourceRange whole(const Excerpt& text) { return text.range(0, text.text.size()); }
+    static SourceRange place_of(const Excerpt& line, const CsvField& cell) { return line.range(cell.begin, cell.end); }
 
     [[nodiscard]] std::size_t place_of(const std::string& name) const
     {
@@ -103,14 +94,15 @@ class InputTableReader {
     void read_heading(const Excerpt& line)
     {
         bool has_time = false;
-        for (const Excerpt& name : cells_of(line)) {
+        for (const CsvField& name : csv_fields(line.text)) {
             const std::size_t place = place_of(name.text);
             if (place > symbols_.size())
                 throw ModelError(
                     fmt::format("the column {} of the table of inputs is no input of the model", quote(name.text)),
-                    whole(name), hint_for(name.text, names_of(symbols_), "inputs"));
+                    place_of(line, name), hint_for(name.text, names_of(symbols_), "inputs"));
             if (std::ranges::find(places_, place) != places_.end())
-                throw ModelError(fmt::format("the table of inputs has two columns '{}'", name.text), whole(name));
+                throw ModelError(fmt::format("the table of inputs has two columns '{}'", name.text),
+                                 place_of(line, name));
             if (place == 0) has_time = true, time_column_ = places_.size();
             places_.push_back(place);
         }
@@ -120,7 +112,7 @@ class InputTableReader {
 
     void read_row(const Excerpt& line, std::vector<double>& row) const
     {
-        const std::vector<Excerpt> cells = cells_of(line);
+        const std::vector<CsvField> cells = csv_fields(line.text);
         if (cells.size() != places_.size())
             throw ModelError(fmt::format("a row of the table of inputs has {} cells, and its heading {}", cells.size(),
                                          places_.size()),
@@ -132,7 +124,7 @@ class InputTableReader {
             const auto [rest, error] = std::from_chars(text.data() + (text.starts_with('+') ? 1 : 0), end, value);
             if (error != std::errc() || rest != end || !std::isfinite(value))
                 throw ModelError(fmt::format("{} in the table of inputs is no finite number", quote(text)),
-                                 text.empty() ? whole(line) : whole(cells[k]));
+                                 text.empty() ? whole(line) : place_of(line, cells[k]));
         }
     }
 

@@ -17,4 +17,12 @@ long double TreeValues::operator()(const Tree& tree, const Values& values)
     return evaluate<long double>(place->second.graph, {&place->second.root, 1}, values)[0];
 }
 
+std::optional<Rational> exact_value(const Tree& tree)
+{
+    Graph graph;
+    const NodeId root = Lowering(graph)(tree);
+    const std::vector<Rational> exact = evaluate_exactly(graph, {&root, 1}, {});
+    return exact.empty() ? std::nullopt : std::optional(exact[0]);
+}
+
 } // namespace lagen

@@ -5,6 +5,7 @@
 #include "graph/core/graph.hpp"
 
 #include <map>
+#include <optional>
 #include <string>
 #include <unordered_map>
 
@@ -27,5 +28,8 @@ class TreeValues {
     };
     std::unordered_map<Tree, Lowered> lowered_; ///< looked up, never iterated
 };
+
+/// The value of a tree without names, where that is rational.
+[[nodiscard]] std::optional<Rational> exact_value(const Tree& tree);
 
 } // namespace lagen

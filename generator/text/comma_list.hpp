@@ -2,9 +2,11 @@
 /// Entries one after the other: "a, b, c".
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lagen {
 
@@ -19,6 +21,17 @@ template <class Range, class Each = std::identity>
         if (!part.empty()) text.append(text.empty() ? "" : between).append(part);
     }
     return text;
+}
+
+/// The texts that `each` makes of the entries, each of them once, in the order in which they come first.
+template <class Range, class Each = std::identity>
+[[nodiscard]] std::vector<std::string> distinct(const Range& entries, Each each = {})
+{
+    std::vector<std::string> texts;
+    for (const auto& entry : entries)
+        if (std::string text(std::invoke(each, entry)); std::ranges::find(texts, text) == texts.end())
+            texts.push_back(std::move(text));
+    return texts;
 }
 
 } // namespace lagen

@@ -87,6 +87,38 @@ std::string value_text(const Record& value, std::string_view format)
                             : value.dump();
 }
 
+std::string in_columns(const std::vector<std::vector<std::string>>& rows, std::string_view flush,
+                       std::string_view indent)
+{
+    std::vector<std::size_t> widths;
+    for (const auto& row : rows) {
+        widths.resize(std::max(widths.size(), row.size()), 0);
+        for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], row[k].size());
+    }
+    std::string text;
+    for (const auto& row : rows) {
+        for (std::size_t k = 0; k < row.size(); ++k) {
+            const std::string blanks(widths[k] - row[k].size(), ' ');
+            text.append(k == 0 ? indent : "  ");
+            text += flush[std::min(k, flush.size() - 1)] == '<' ? row[k] + blanks : blanks + row[k];
+        }
+        text.erase(text.find_last_not_of(' ') + 1);
+        text += "\n";
+    }
+    return text;
+}
+
+std::string count_text(std::size_t count, std::string_view noun)
+{
+    return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+std::string complex_text(double real, double imaginary)
+{
+    if (imaginary == 0) return value_text(real, ".6g");
+    return fmt::format("{}{:.6g}i", real == 0 ? "+-" : value_text(real, ".6g") + " +- ", std::fabs(imaginary));
+}
+
 std::string filled(std::string_view text, const Record& record)
 {
     std::string out;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lagen {
 
@@ -26,6 +27,17 @@ using Record = nlohmann::ordered_json;
 /// A value for people: numbers with 12 digits or by a format of fmt (".3g"), texts as they are, lists "1, 2", objects
 /// "x = 1, y = 2", what is not there "".
 [[nodiscard]] std::string value_text(const Record& value, std::string_view format = ".12g");
+
+/// Cells in columns with two blanks between them: each flush left where `flush` has a '<' for its column, else right.
+/// Its last letter is that of all columns behind.
+[[nodiscard]] std::string in_columns(const std::vector<std::vector<std::string>>& rows, std::string_view flush = ">",
+                                     std::string_view indent = "  ");
+
+/// "1 row", "2 rows".
+[[nodiscard]] std::string count_text(std::size_t count, std::string_view noun);
+
+/// "-0.5", "0.1 +- 2i": a conjugate pair by one of it.
+[[nodiscard]] std::string complex_text(double real, double imaginary);
 
 /// `text` with such a value in the place of each {NAME} or {NAME:FORMAT}, a member of `record`.
 [[nodiscard]] std::string filled(std::string_view text, const Record& record);

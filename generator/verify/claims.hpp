@@ -43,9 +43,13 @@ class Claims {
   private:
     void decide_along_motions(Report& report, const std::vector<NamedTree>& claims);
     /// True where there are motions in continuous time, whose equations claims are about.
-    [[nodiscard]] bool has_motions() const { return lagrangian_ || system_.hamiltonian || system_.control; }
+    [[nodiscard]] bool has_motions() const
+    {
+        return lagrangian_ || system_.hamiltonian || system_.control || !system_.rates.empty();
+    }
     void decide_along_steps(Report& report, const std::vector<NamedTree>& claims);
     [[nodiscard]] std::unique_ptr<EquationsOfMotion> equations_of_motion();
+    [[nodiscard]] Algebroid leaves();
     [[nodiscard]] WhereConstant along_anchor();
     [[nodiscard]] WhereConstant along_motions(EquationsOfMotion& motion, const Regularity& regularity);
     [[nodiscard]] bool motions_fill(const Regularity& regularity);

@@ -31,15 +31,15 @@ bool is_of_function(const Residual& residual)
 Check Claims::check_of(const Residual& residual)
 {
     Check check{residual.name, {}, judge_->decide(residual.value)};
-    for (const std::size_t index : residual.indices) {
-        const bool last = check.indices.size() + 1 == residual.indices.size();
+    for (const std::size_t& index : residual.indices) {
+        const bool last = &index == &residual.indices.back();
         if (last && residual.name == "anchor")
             check.indices.push_back(graph_.input_name(system_.algebroid.x[index]));
         else if (last && residual.name == "tangency")
             check.indices.push_back(system_.constraints[index].name);
         else if (last && residual.name == "casimir")
             check.indices.push_back(system_.casimirs[index].name);
-        else
+        else if (system_.rates.empty()) // else along the rates
             check.indices.push_back(graph_.input_name(system_.algebroid.y[index]));
     }
     return check;
@@ -76,9 +76,19 @@ void Claims::decide_by_construction(const ResidualList& list)
         if (refuted) judge_->remember(value, std::move(decision));
 }
 
+/// The algebroid whose anchor constraints and Casimirs are constant along: that of the system, or of a system of first
+/// order the line bundle with its rates as anchor, whose motions have the velocity 1.
+Algebroid Claims::leaves()
+{
+    if (system_.rates.empty()) return system_.algebroid;
+    AlgebroidBuilder line(graph_, system_.algebroid.x, 1);
+    for (std::size_t i = 0; i < system_.rates.size(); ++i) line.add_anchor(i, 0, system_.rates[i]);
+    return line.finish({graph_.input("velocity along the rates")});
+}
+
 void Claims::decide_structure(StructureReport& structure)
 {
-    const ResidualList list = structure_equations(partial_, system_.algebroid, system_.functions);
+    const ResidualList list = structure_equations(partial_, leaves(), system_.functions);
     structure.note = note_;
     structure.trivial += list.trivial;
     decide_by_construction(list);

@@ -85,6 +85,11 @@ WitnessPoint::WitnessPoint(Graph& graph, const NamedPoint& point) : graph_(graph
     }
 }
 
+std::vector<proof::Ball> WitnessPoint::enclose(const std::vector<NodeId>& nodes) const
+{
+    return proof::Evaluation(graph_, nodes).enclose(balls_, precision);
+}
+
 bool WitnessPoint::may_vanish(NodeId node)
 {
     if (graph_.is_constant(node)) return graph_.is_zero(node);

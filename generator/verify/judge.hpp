@@ -49,6 +49,8 @@ class WitnessPoint {
 
     /// False where the value is certainly not zero at the point.
     [[nodiscard]] bool may_vanish(NodeId node);
+    /// Enclosures of nodes over the inputs of the point.
+    [[nodiscard]] std::vector<proof::Ball> enclose(const std::vector<NodeId>& nodes) const;
     /// Operations carried out so far.
     [[nodiscard]] std::size_t effort() const { return effort_; }
 

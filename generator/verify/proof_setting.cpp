@@ -22,6 +22,7 @@ std::vector<NodeId> defined_nodes(const System& system)
     for (const std::optional<NodeId>& function : {system.lagrangian, system.hamiltonian})
         if (function) nodes.push_back(*function);
     append_nodes(nodes, system.forces);
+    append_nodes(nodes, system.rates);
     if (system.distribution)
         for (const Section& section : system.distribution->sections)
             for (const ColumnEntry& entry : section) nodes.push_back(entry.value);

@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <fcntl.h>
 #include <filesystem>
+#include <fstream>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -141,14 +142,27 @@ Outcome call(const std::vector<std::string>& arguments, const Surroundings& arou
     return finish(start_call(arguments, around));
 }
 
-json::Value finished_run(std::vector<std::string> arguments)
+Outcome done(const std::vector<std::string>& arguments, const Surroundings& around)
 {
-    arguments.insert(arguments.begin(), "run");
-    arguments.insert(arguments.end(), {"--format", "json"});
-    const Outcome outcome = call(arguments);
+    Outcome outcome = call(arguments, around);
     INFO(outcome.err);
     REQUIRE(outcome.code == 0);
-    const json::Value value = json::parse(outcome.out);
+    return outcome;
+}
+
+json::Value report_of(const char* command, std::vector<std::string> arguments, int code, const Surroundings& around)
+{
+    arguments.insert(arguments.begin(), command);
+    arguments.insert(arguments.end(), {"--format", "json"});
+    const Outcome outcome = call(arguments, around);
+    INFO(outcome.err);
+    REQUIRE(outcome.code == code);
+    return json::parse(outcome.out);
+}
+
+json::Value finished_run(std::vector<std::string> arguments)
+{
+    json::Value value = report_of("run", std::move(arguments));
     REQUIRE(value["status"].text == "ok");
     return value;
 }
@@ -175,6 +189,13 @@ std::string fresh_folder()
     const std::string folder = root().next("folder");
     fs::create_directory(folder);
     return folder;
+}
+
+std::string written_file(const std::string& name, const std::string& text)
+{
+    const std::string path = fresh_folder() + "/" + name;
+    std::ofstream(path, std::ios::binary) << text;
+    return path;
 }
 
 const std::string& models_folder()

@@ -34,6 +34,9 @@ struct Surroundings {
 /// Runs lagen. Programs that it compiles are shared by the whole test program.
 [[nodiscard]] Outcome call(const std::vector<std::string>& arguments, const Surroundings& around = {});
 
+/// The same, which must succeed.
+[[nodiscard]] Outcome done(const std::vector<std::string>& arguments, const Surroundings& around = {});
+
 /// The same, not waited for; `finish` waits.
 struct Started {
     pid_t process = 0;
@@ -42,6 +45,9 @@ struct Started {
 [[nodiscard]] Started start_call(const std::vector<std::string>& arguments, const Surroundings& around = {});
 [[nodiscard]] Outcome finish(const Started& started);
 
+/// The report of a command in JSON, which must end with this exit code.
+[[nodiscard]] json::Value report_of(const char* command, std::vector<std::string> arguments, int code = 0,
+                                    const Surroundings& around = {});
 /// The report of `lagen run` with these arguments, which must come to its end.
 [[nodiscard]] json::Value finished_run(std::vector<std::string> arguments);
 /// Its last row by the names of the columns.
@@ -51,6 +57,8 @@ struct Started {
 
 /// A new empty folder, removed with everything else when the test program ends.
 [[nodiscard]] std::string fresh_folder();
+/// The path of a new file with this text, in a folder of its own.
+[[nodiscard]] std::string written_file(const std::string& name, const std::string& text);
 /// A folder with a copy of what is in models and in tests/commands/models.
 [[nodiscard]] const std::string& models_folder();
 /// The example models by name, sorted.

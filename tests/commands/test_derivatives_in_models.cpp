@@ -58,8 +58,7 @@ TEST_CASE("a body by its pose is pushed along its own axis while it turns about 
 
 TEST_CASE("time that cancels is no explicit time: a hoop that turns steadily has equilibria", "[run]")
 {
-    const std::string hoop = fresh_folder() + "/hoop.toml";
-    write_text(hoop, R"toml([parameters]
+    const std::string hoop = written_file("hoop.toml", R"toml([parameters]
 O = 2
 [base]
 coordinates = ["q"]

@@ -63,9 +63,10 @@ TEST_CASE("a form that is none is answered with the nearest one")
 {
     const Outcome outcome = call({"derive", "pendulum.toml", "--form", "hamiltonian"});
     CHECK(outcome.code == 4);
-    CHECK(outcome.err == "lagen derive: --form is 'hamiltonian', it must be one of lagrange, hamilton, pontryagin, "
-                         "discrete, exterior, cartan, poisson, invariants, variations, reaction, projected; did "
-                         "you mean 'hamilton'?\n");
+    CHECK(outcome.err ==
+          "lagen derive: --form is 'hamiltonian', it must be one of lagrange, hamilton, pontryagin, "
+          "discrete, first_order, exterior, cartan, poisson, invariants, variations, reaction, projected; did "
+          "you mean 'hamilton'?\n");
 }
 
 TEST_CASE("Euler's equations of the rigid body are those of the textbook")

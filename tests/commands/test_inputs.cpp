@@ -22,9 +22,7 @@ Rows rows_of(const std::vector<std::string>& arguments)
 {
     std::vector<std::string> all{"run"};
     all.insert(all.end(), arguments.begin(), arguments.end());
-    const Outcome run = call(all);
-    INFO(run.err);
-    REQUIRE(run.code == 0);
+    const Outcome run = done(all);
     std::istringstream lines(run.out);
     std::string line;
     std::getline(lines, line);
@@ -63,9 +61,7 @@ TEST_CASE("between the rows of a table inputs are held: a mass moves on parabola
 
 TEST_CASE("crossings are counted over the rows of a table, and the work of inputs balances the energy", "[run]")
 {
-    const Outcome run = call({"run", "pushed_mass.toml", "--scene", "watched", "--format", "json"});
-    INFO(run.err);
-    REQUIRE(run.code == 0);
+    const Outcome run = done({"run", "pushed_mass.toml", "--scene", "watched", "--format", "json"});
     const json::Value report = json::parse(run.out);
     REQUIRE(report["events"].size() == 2);
     CHECK(std::strtod(report["events"][0]["t"].text.c_str(), nullptr) == Approx(0.75).epsilon(1e-13));

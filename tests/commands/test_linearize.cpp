@@ -19,16 +19,6 @@ namespace json = lagen::json;
 
 namespace {
 
-json::Value linearised(std::vector<std::string> arguments)
-{
-    arguments.insert(arguments.begin(), "linearize");
-    arguments.insert(arguments.end(), {"--format", "json"});
-    const Outcome outcome = call(arguments);
-    INFO(outcome.err);
-    REQUIRE(outcome.code == 0);
-    return json::parse(outcome.out);
-}
-
 double matrix_entry(const json::Value& matrix, std::size_t row, std::size_t column)
 {
     return static_cast<double>(matrix[row][column].number());
@@ -46,7 +36,7 @@ void compare_with_differences(const std::string& model, const std::vector<std::s
 {
     std::vector<std::string> arguments{model};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    const json::Value found = linearised(arguments);
+    const json::Value found = report_of("linearize", arguments);
     const lagen::CheckedModel checked = lagen::load(models_folder() + "/" + model, {}, false);
     lagen::KernelRequest request;
     request.form = found["form"].text;
@@ -82,11 +72,10 @@ void compare_with_differences(const std::string& model, const std::vector<std::s
 
 json::Value linearised_text(const std::string& text, const std::vector<std::string>& more = {})
 {
-    const std::string path = fresh_folder() + "/model.toml";
-    write_text(path, text);
+    const std::string path = written_file("model.toml", text);
     std::vector<std::string> arguments{path};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return linearised(arguments);
+    return report_of("linearize", arguments);
 }
 
 /// A body that hangs at a point: attitudes R as a matrix without a word of R^T R = 1.
@@ -152,7 +141,7 @@ TEST_CASE("a vector without declared Casimirs keeps its length, and a place besi
     CHECK(top["equilibrium"]["g[3]"].number() == Approx(std::sqrt(1.44 + 0.09 + 2.56)).epsilon(1e-15));
     CHECK(top["certified"].text == "true");
     // The quadrotor over the origin, where its law holds it.
-    const json::Value hovering = linearised({LAGEN_SOURCE_DIR "/docs/cookbook/quadrotor.toml"});
+    const json::Value hovering = report_of("linearize", {LAGEN_SOURCE_DIR "/docs/cookbook/quadrotor.toml"});
     const auto entry = [&](const char* name) { return hovering["equilibrium"][name].number(); }; // turned about e3
     CHECK(entry("R[3,3]") == Approx(1).epsilon(1e-12));
     CHECK(entry("R[1,1]") * entry("R[2,2]") - entry("R[1,2]") * entry("R[2,1]") == Approx(1).epsilon(1e-12));
@@ -163,8 +152,7 @@ TEST_CASE("a vector without declared Casimirs keeps its length, and a place besi
 
 TEST_CASE("a start that is moved onto constraints stays on the levels of Casimirs that nobody declared")
 {
-    const std::string path = fresh_folder() + "/bowl.toml";
-    write_text(path, R"-([base]
+    const std::string path = written_file("bowl.toml", R"-([base]
 coordinates = ["x", "y", "z"]
 constraints = ["z - x^2 - y^2"]
 [fibre]
@@ -182,7 +170,7 @@ at = [0]
     const json::Value row = finished_run({path})["rows"][0];
     for (const auto& [column, wanted] : {std::pair{1U, 0.6L}, std::pair{2U, 0.8L}, std::pair{3U, 1.0L}})
         CHECK(std::abs(row[column].number() - wanted) < 1e-15L);
-    const json::Value found = linearised({path});
+    const json::Value found = report_of("linearize", {path});
     CHECK(found["equilibrium"]["z"].number() == 1);
 }
 
@@ -213,7 +201,7 @@ duration = 1
     for (const auto& [x, y] : {std::pair{"-d*v*sqrt(v^2 + w^2)", "-d*w*sqrt(v^2 + w^2)"},
                                std::pair{"-d*v*norm([v, w])^(1/2)", "-d*w*norm([v, w])^(1/2)"},
                                std::pair{"-d*abs(v)*v", "-d*w*abs(w)^0.3"}}) {
-        const json::Value found = linearised({kite(x, y)});
+        const json::Value found = report_of("linearize", {kite(x, y)});
         INFO(x);
         CHECK(found["certified"].text == "true");
         for (const std::size_t row : {2U, 3U})
@@ -252,8 +240,8 @@ TEST_CASE("a cart and pole without friction has the eigenvalues of its formula, 
 {
     const double M = 1, m = 0.3, l = 0.5, g = 9.81, root = std::sqrt((M + m) * g / (M * l));
     for (const bool up : {true, false}) {
-        const json::Value found =
-            linearised({"cart_pole.toml", "--set", "c=0", "--initial", up ? "th=2.8" : "th=0.4", "--initial", "x=0.7"});
+        const json::Value found = report_of("linearize", {"cart_pole.toml", "--set", "c=0", "--initial",
+                                                          up ? "th=2.8" : "th=0.4", "--initial", "x=0.7"});
         CHECK(found["certified"].text == "true");
         CHECK(static_cast<double>(found["equilibrium"]["th"].number()) == (up ? std::acos(-1.0) : 0));
         CHECK(found["equilibrium"]["u"].text == "0");
@@ -284,7 +272,7 @@ TEST_CASE("A and B are the finite differences of the right-hand side that is gen
 
 TEST_CASE("the double integrator is controllable, with the gain [1, sqrt(3)]")
 {
-    const json::Value found = linearised({"integrator.toml", "--lqr", "Q=1;R=1"});
+    const json::Value found = report_of("linearize", {"integrator.toml", "--lqr", "Q=1;R=1"});
     CHECK(texts(found["equilibrium"]) == std::vector<std::string>{"0.2", "0", "0"}); // x stays
     CHECK(texts(found["A"][0]) == std::vector<std::string>{"0", "1"});
     CHECK(texts(found["A"][1]) == std::vector<std::string>{"0", "0"});
@@ -295,14 +283,14 @@ TEST_CASE("the double integrator is controllable, with the gain [1, sqrt(3)]")
     CHECK(matrix_entry(found["gain"], 0, 0) == Approx(1).epsilon(1e-14));
     CHECK(matrix_entry(found["gain"], 0, 1) == Approx(std::sqrt(3.0)).epsilon(1e-14));
     CHECK(found["riccati_residual"].number() < 1e-15);
-    const json::Value weighed = linearised({"integrator.toml", "--lqr", "R=[[4]]; Q = [4, 2*2*2/2]"});
+    const json::Value weighed = report_of("linearize", {"integrator.toml", "--lqr", "R=[[4]]; Q = [4, 2*2*2/2]"});
     CHECK(matrix_entry(weighed["gain"], 0, 1) == Approx(std::sqrt(3.0)).epsilon(1e-14));
-    CHECK(linearised({"integrator.toml"})["gain"].kind == json::Kind::null);
+    CHECK(report_of("linearize", {"integrator.toml"})["gain"].kind == json::Kind::null);
 }
 
 TEST_CASE("inputs are held at what the scene gives at its start")
 {
-    const json::Value found = linearised({"integrator.toml", "--scene", "drawn"});
+    const json::Value found = report_of("linearize", {"integrator.toml", "--scene", "drawn"});
     CHECK(found["equilibrium"]["u"].text == "3");
     CHECK(found["equilibrium"]["x"].text == "1.5");
     CHECK(found["inputs_moved"].text == "false");
@@ -312,8 +300,7 @@ TEST_CASE("inputs are held at what the scene gives at its start")
 
 TEST_CASE("inputs made of parameters are exactly what these make them: a quadrotor hovers at m g/2")
 {
-    const std::string path = fresh_folder() + "/quadrotor.toml";
-    write_text(path, R"toml([parameters]
+    const std::string path = written_file("quadrotor.toml", R"toml([parameters]
 m = 0.5
 g = 9.81
 [base]
@@ -332,7 +319,7 @@ v_phi = "0.2*(f[1] - f[2])"
 initial = { z = 1, y = 0, phi = 0.1, v_y = 0, v_z = 0, v_phi = 0 }
 duration = 1
 )toml");
-    const json::Value found = linearised({path});
+    const json::Value found = report_of("linearize", {path});
     CHECK(found["inputs_moved"].text == "false");
     CHECK(found["certified"].text == "true");
     CHECK(found["equilibrium"]["phi"].text == "0");
@@ -342,7 +329,7 @@ duration = 1
 
 TEST_CASE("where they have no equilibrium they move as little as possible, and the text says so")
 {
-    const json::Value found = linearised({"loaded.toml"});
+    const json::Value found = report_of("linearize", {"loaded.toml"});
     CHECK(found["inputs_moved"].text == "true");
     CHECK(found["certified"].text == "true");
     CHECK(texts(found["equilibrium"]) == std::vector<std::string>{"1", "0", "2", "4"}); // 10 (1, 2)/5
@@ -369,7 +356,7 @@ w = "u"
 initial = { th = 2, w = 0 }
 inputs = { u = 30 }
 )toml");
-    const json::Value found = linearised({folder + "/held.toml"});
+    const json::Value found = report_of("linearize", {folder + "/held.toml"});
     CHECK(found["certified"].text == "true");
     CHECK(found["inputs_moved"].text == "true");
     CHECK(found["equilibrium"]["th"].text == "2");
@@ -378,17 +365,17 @@ inputs = { u = 30 }
 
 TEST_CASE("one force does not reach the difference of equal oscillators")
 {
-    const json::Value found = linearised({"two_masses.toml"});
+    const json::Value found = report_of("linearize", {"two_masses.toml"});
     CHECK(found["controllable"].text == "false");
     REQUIRE(found["uncontrollable"].size() == 2);
     CHECK(matrix_entry(found["uncontrollable"], 1, 1) == Approx(1).epsilon(1e-15));
-    CHECK(linearised({"two_masses.toml", "--set", "apart=1/2"})["controllable"].text == "true");
+    CHECK(report_of("linearize", {"two_masses.toml", "--set", "apart=1/2"})["controllable"].text == "true");
 }
 
 TEST_CASE("on the sphere a top is controllable, though not off it, and its gain holds it")
 {
     for (const char* scene : {"default", "momenta"}) {
-        const json::Value found = linearised({"held_top.toml", "--scene", scene, "--lqr", "Q=1;R=1"});
+        const json::Value found = report_of("linearize", {"held_top.toml", "--scene", scene, "--lqr", "Q=1;R=1"});
         CHECK(found["certified"].text == "true");
         CHECK(found["equilibrium"]["g3"].text == "1");
         CHECK(found["controllable"].text == "true");

@@ -49,14 +49,10 @@ void check_rows(const std::vector<Asked>& asked)
         std::vector<std::string> once{"run", file, "--t-end", "3", "--at", "3", "--no-second-run"};
         once.insert(once.end(), method.begin(), method.end());
         once.insert(once.end(), {"--set", parameter + "=1.7"});
-        const Outcome run = call(once);
-        INFO(run.err);
-        REQUIRE(run.code == 0);
+        const Outcome run = done(once);
         std::vector<std::string> many{"sweep", file, "--t-end", "3", "--set", parameter + "=1.7:1.7:1", "-o", "a.csv"};
         many.insert(many.end(), method.begin(), method.end());
-        const Outcome sweep = call(many, {.folder = folder});
-        INFO(sweep.err);
-        REQUIRE(sweep.code == 0);
+        const Outcome sweep = done(many, {.folder = folder});
         // A row of the sweep is 0,1.7,t,state..,: the fields behind t are those of the run's only row.
         const std::string row = run.out.substr(run.out.find('\n') + 1);
         const std::string state = row.substr(row.find(',') + 1, row.find('\r') - row.find(',') - 1);
@@ -97,8 +93,7 @@ TEST_CASE("functions that begin at 0 are followed in the process as they are in 
 
 TEST_CASE("a model without lanes runs by every kind of method", "[run]")
 {
-    const std::string path = fresh_folder() + "/none.toml";
-    write_text(path, R"toml([base]
+    const std::string path = written_file("none.toml", R"toml([base]
 coordinates = []
 [fibre]
 coordinates = []
@@ -118,9 +113,7 @@ samples = 3
         INFO(method[0]);
         std::vector<std::string> arguments{"run", path, "--method"};
         arguments.insert(arguments.end(), method.begin(), method.end());
-        const Outcome run = call(arguments);
-        INFO(run.err);
-        CHECK(run.code == 0);
+        const Outcome run = done(arguments);
         CHECK(run.out == "t\r\n0\r\n0.5\r\n1\r\n");
     }
 }

@@ -42,7 +42,7 @@ TEST_CASE("there is a model to start from of every kind, and lagen check proves 
         INFO(kind);
         CHECK(std::ranges::find(kinds, kind) != kinds.end());
     }
-    CHECK(rows == 11);
+    CHECK(rows == 12);
     CHECK(kinds.size() == rows + 2); // discrete and control
     const std::string folder = fresh_folder();
     for (const std::string& kind : kinds) {

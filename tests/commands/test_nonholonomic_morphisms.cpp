@@ -83,8 +83,7 @@ TEST_CASE("motions of nonholonomic models project, by velocities and by momenta"
             CHECK(value["defect"]["max"].number() < 1e-10);
             CHECK(value["defect"]["columns"].size() >= 2);
         }
-    const Outcome lifted = call({"run", constrained_maps + "sleigh_reduction.toml", "--reconstruct", "--tolerance",
+    const Outcome lifted = done({"run", constrained_maps + "sleigh_reduction.toml", "--reconstruct", "--tolerance",
                                  "1e-12", "--format", "json"});
-    REQUIRE(lifted.code == 0);
     CHECK(json::parse(lifted.out)["reconstruction"]["max"].number() < 1e-11);
 }

@@ -19,17 +19,6 @@ namespace tolerance = lagen::tolerance;
 
 namespace {
 
-/// A run that must succeed, as JSON.
-json::Value run(std::vector<std::string> arguments, const Surroundings& around = {})
-{
-    arguments.insert(arguments.begin(), "run");
-    arguments.insert(arguments.end(), {"--format", "json"});
-    const Outcome outcome = call(arguments, around);
-    INFO(outcome.err);
-    REQUIRE(outcome.code == 0);
-    return json::parse(outcome.out);
-}
-
 std::vector<double> column(const json::Value& value, std::size_t k)
 {
     std::vector<double> numbers;
@@ -37,17 +26,12 @@ std::vector<double> column(const json::Value& value, std::size_t k)
     return numbers;
 }
 
-double number(const json::Value& value)
-{
-    return std::strtod(value.text.c_str(), nullptr);
-}
-
 } // namespace
 
 TEST_CASE(
     "run --format json has exactly the members of the interface, and every number is the shortest that reads back")
 {
-    const json::Value value = run({"oscillator.toml", "--at", "0,1/3,1"});
+    const json::Value value = report_of("run", {"oscillator.toml", "--at", "0,1/3,1"});
     CHECK(value.keys == std::vector<std::string>{"model", "scene", "form", "method", "status", "t", "state", "steps",
                                                  "rejected", "rhs_calls", "seconds", "accuracy", "below_absolute",
                                                  "invariants", "casimirs", "constraints", "events", "columns", "rows"});
@@ -57,22 +41,22 @@ TEST_CASE(
     CHECK(value["method"].text == "dop853");
     CHECK(value["status"].text == "ok");
     CHECK(value["columns"].texts() == std::vector<std::string>{"t", "x", "v"});
-    CHECK(number(value["steps"]) > 2);
-    CHECK(number(value["rhs_calls"]) > number(value["steps"]));
+    CHECK(value["steps"].decimal() > 2);
+    CHECK(value["rhs_calls"].decimal() > value["steps"].decimal());
     CHECK(value["events"].size() == 0);
     const json::Value& energy = value["invariants"]["energy"];
     CHECK(energy.keys == std::vector<std::string>{"initial", "max_drift", "t"}); // too few steps for a slope
     CHECK(energy["initial"].text == "0.5");
-    CHECK(number(energy["max_drift"]) < 1e-9);
+    CHECK(energy["max_drift"].decimal() < 1e-9);
     REQUIRE(value["rows"].size() == 3);
     CHECK(value["rows"][1][0].text == "0.3333333333333333");
     for (const json::Value& row : value["rows"].entries) {
-        const double t = number(row[0]);
-        CHECK(std::abs(number(row[1]) - std::cos(t)) < 1e-9);
-        CHECK(std::abs(number(row[2]) + std::sin(t)) < 1e-9);
+        const double t = row[0].decimal();
+        CHECK(std::abs(row[1].decimal() - std::cos(t)) < 1e-9);
+        CHECK(std::abs(row[2].decimal() + std::sin(t)) < 1e-9);
         for (const json::Value& entry : row.entries) {
             char text[40];
-            CHECK(entry.text == std::string(text, std::to_chars(text, text + sizeof text, number(entry)).ptr));
+            CHECK(entry.text == std::string(text, std::to_chars(text, text + sizeof text, entry.decimal()).ptr));
         }
     }
 }
@@ -111,7 +95,7 @@ TEST_CASE("an output called .json has the report, and a name in other capitals i
 
 TEST_CASE("--at gives rows at exactly these times, sorted, and stretches the run to the last of them")
 {
-    const json::Value value = run({"oscillator.toml", "--at", "3,0.1, pi/2 ,2"});
+    const json::Value value = report_of("run", {"oscillator.toml", "--at", "3,0.1, pi/2 ,2"});
     const std::vector<double> times = column(value, 0);
     CHECK(times == std::vector<double>{0.1, 1.5707963267948966, 2, 3});
     CHECK(value["t"].text == "3");
@@ -124,10 +108,10 @@ TEST_CASE("--at gives rows at exactly these times, sorted, and stretches the run
 
 TEST_CASE("a run goes backwards where its end lies before its start")
 {
-    const json::Value value = run({"oscillator.toml", "--t-end", "-2", "--at", "-2,0,-1"});
+    const json::Value value = report_of("run", {"oscillator.toml", "--t-end", "-2", "--at", "-2,0,-1"});
     CHECK(column(value, 0) == std::vector<double>{0, -1, -2});
     CHECK(std::abs(column(value, 2)[2] + std::sin(-2.0)) < 1e-9);
-    CHECK(column(run({"oscillator.toml", "--t-end", "0"}), 1) == std::vector<double>{1});
+    CHECK(column(report_of("run", {"oscillator.toml", "--t-end", "0"}), 1) == std::vector<double>{1});
 }
 
 TEST_CASE("a scene's `samples` and `sample` say how many rows there are")
@@ -138,7 +122,7 @@ TEST_CASE("a scene's `samples` and `sample` say how many rows there are")
                                                 "[scene.spaced]\nlike = \"default\"\nsample = 0.4\n"
                                                 "[scene.listed]\nlike = \"default\"\nat = [1, 0.5]\n");
     const auto times = [&](const char* scene) {
-        return column(run({"oscillator.toml", "--scene", scene}, {.folder = folder}), 0);
+        return column(report_of("run", {"oscillator.toml", "--scene", scene}, 0, {.folder = folder}), 0);
     };
     CHECK(times("few") == std::vector<double>{0, 0.25, 0.5, 0.75, 1});
     CHECK(times("spaced") == std::vector<double>{0, 0.4, 0.8, 1});
@@ -147,34 +131,34 @@ TEST_CASE("a scene's `samples` and `sample` say how many rows there are")
 
 TEST_CASE("`observe` says which columns there are; an event that stops a run is a success", "[run]")
 {
-    const json::Value value = run({"pendulum.toml", "--scene", "first_turn"});
+    const json::Value value = report_of("run", {"pendulum.toml", "--scene", "first_turn"});
     CHECK(value["status"].text == "stopped_by_event");
     CHECK(value["columns"].texts() == std::vector<std::string>{"t", "th", "w", "height", "energy"});
     REQUIRE(value["events"].size() == 1);
     CHECK(value["events"][0]["name"].text == "over_the_top");
-    const double t = number(value["events"][0]["t"]);
-    CHECK(t == number(value["t"]));
+    const double t = value["events"][0]["t"].decimal();
+    CHECK(t == value["t"].decimal());
     CHECK(std::abs(t - 0.571730904456) < 1e-10);
     REQUIRE(value["rows"].size() == 13); // t = 0, 0.05, .., 0.55, and the event's
     CHECK(column(value, 0).back() == t);
     CHECK(std::abs(column(value, 1).back() - 3.14159265358979) < 1e-12);
     for (const json::Value& row : value["rows"].entries)
-        CHECK(std::abs(number(row[3]) + 1.1 * std::cos(number(row[1]))) <= tolerance::roundoff(8));
-    const json::Value asked = run({"pendulum.toml", "--scene", "first_turn", "--at", "0,0.1,2"});
+        CHECK(std::abs(row[3].decimal() + 1.1 * std::cos(row[1].decimal())) <= tolerance::roundoff(8));
+    const json::Value asked = report_of("run", {"pendulum.toml", "--scene", "first_turn", "--at", "0,0.1,2"});
     CHECK(asked["status"].text == "stopped_by_event");
     CHECK(column(asked, 0) == std::vector<double>{0, 0.1}); // rows at exactly these times, the event's is none of them
 }
 
 TEST_CASE("momenta in `initial` start the body whose momenta they are", "[run]")
 {
-    const json::Value value = run({"rigid_body.toml", "--scene", "from_momenta", "--at", "0"});
+    const json::Value value = report_of("run", {"rigid_body.toml", "--scene", "from_momenta", "--at", "0"});
     CHECK(value["columns"].texts() == std::vector<std::string>{"t", "w1", "w2", "w3"});
     const json::Value& row = value["rows"][0];
-    CHECK(number(row[1]) == 0);
-    CHECK(number(row[2]) == 20.0 / 23); // 2/2.3, rounded once
-    CHECK(number(row[3]) == 10.0 / 34);
+    CHECK(row[1].decimal() == 0);
+    CHECK(row[2].decimal() == 20.0 / 23); // 2/2.3, rounded once
+    CHECK(row[3].decimal() == 10.0 / 34);
     CHECK(value["invariants"].keys == std::vector<std::string>{"energy", "momentum_squared"});
-    CHECK(std::abs(number(value["invariants"]["momentum_squared"]["initial"]) - 5) <= 5 * tolerance::roundoff(8));
+    CHECK(std::abs(value["invariants"]["momentum_squared"]["initial"].decimal() - 5) <= 5 * tolerance::roundoff(8));
 }
 
 TEST_CASE("--set wins over the scene's parameters, exactly")
@@ -183,7 +167,7 @@ TEST_CASE("--set wins over the scene's parameters, exactly")
     const auto energy = [](const std::vector<std::string>& more) {
         std::vector<std::string> arguments{"fall.toml", "--scene", "weighted", "--at", "0"};
         arguments.insert(arguments.end(), more.begin(), more.end());
-        return run(arguments)["invariants"]["energy"]["initial"].text;
+        return report_of("run", arguments)["invariants"]["energy"]["initial"].text;
     };
     CHECK(energy({}) == "0");
     CHECK(energy({"--set", "b=1/4"}) == "0.5");
@@ -192,14 +176,15 @@ TEST_CASE("--set wins over the scene's parameters, exactly")
 
 TEST_CASE("--method, --step and --tolerance win over the scene")
 {
-    const json::Value coarse = run({"oscillator.toml", "--method", "euler", "--step", "1/4", "--at", "1"});
+    const json::Value coarse = report_of("run", {"oscillator.toml", "--method", "euler", "--step", "1/4", "--at", "1"});
     CHECK(coarse["method"].text == "euler");
     CHECK(coarse["steps"].text == "4");
     // (1 + h J)^4 applied to (1, 0) with h = 1/4: the real part of (1 - i/4)^4 is 1 - 6/16 + 1/256, all exact in
     // binary.
-    CHECK(number(coarse["rows"][0][1]) == 1 - 6.0 / 16 + 1.0 / 256);
+    CHECK(coarse["rows"][0][1].decimal() == 1 - 6.0 / 16 + 1.0 / 256);
     const auto drift = [](const char* wanted) {
-        return number(run({"oscillator.toml", "--tolerance", wanted})["invariants"]["energy"]["max_drift"]);
+        return report_of("run", {"oscillator.toml", "--tolerance", wanted})["invariants"]["energy"]["max_drift"]
+            .decimal();
     };
     CHECK(drift("1e-13") < 1e-12);
     CHECK(drift("1e-13") < drift("1e-4"));
@@ -260,24 +245,24 @@ TEST_CASE("splittings compose exact flows where Hamilton's equations do not sepa
     for (const std::string model : {"heavy_top.toml", "kirchhoff.toml"}) {
         INFO(model);
         const json::Value exact =
-            run({model, "--form", "hamilton", "--t-end", "2", "--at", "2", "--tolerance", "1e-13"});
-        const json::Value split =
-            run({model, "--form", "hamilton", "--t-end", "2", "--at", "2", "--method", "kahanli8", "--step", "0.05"});
+            report_of("run", {model, "--form", "hamilton", "--t-end", "2", "--at", "2", "--tolerance", "1e-13"});
+        const json::Value split = report_of("run", {model, "--form", "hamilton", "--t-end", "2", "--at", "2",
+                                                    "--method", "kahanli8", "--step", "0.05"});
         CHECK(split["status"].text == "ok");
-        CHECK(number(split["steps"]) == 40);
+        CHECK(split["steps"].decimal() == 40);
         for (std::size_t k = 1; k < exact["columns"].size(); ++k)
             CHECK(column(split, k)[0] == Approx(column(exact, k)[0]).epsilon(1e-9).margin(1e-9));
         for (const std::string& name : split["invariants"].keys)
-            CHECK(number(split["invariants"][name]["max_drift"]) < 1e-9);
+            CHECK(split["invariants"][name]["max_drift"].decimal() < 1e-9);
     }
 }
 
 TEST_CASE("--time-scale makes reversible steps, with the published error of an eccentric orbit", "[run]")
 {
-    const json::Value value = run({"kepler.toml", "--method", "leapfrog_kdk", "--step", "0.05", "--time-scale",
-                                   "r^(3/2)", "--t-end", "200*pi", "--at", "0,200*pi"});
-    CHECK(number(value["invariants"]["energy"]["max_drift"]) == Approx(8.921e-4).epsilon(1e-4));
-    CHECK(number(value["steps"]) / 100 == Approx(136).epsilon(4e-3));
+    const json::Value value = report_of("run", {"kepler.toml", "--method", "leapfrog_kdk", "--step", "0.05",
+                                                "--time-scale", "r^(3/2)", "--t-end", "200*pi", "--at", "0,200*pi"});
+    CHECK(value["invariants"]["energy"]["max_drift"].decimal() == Approx(8.921e-4).epsilon(1e-4));
+    CHECK(value["steps"].decimal() / 100 == Approx(136).epsilon(4e-3));
 }
 
 TEST_CASE("a scene's time_scale is that of --time-scale, in runs and in sweeps", "[all]")
@@ -289,9 +274,7 @@ TEST_CASE("a scene's time_scale is that of --time-scale, in runs and in sweeps",
                    "time_scale = 'r^(3/2)'\n\n[scene.even]\nlike = 'steady'\ntime_scale = 1\n");
     const auto rows = [&](std::vector<std::string> more) {
         more.insert(more.begin(), {"run", "kepler.toml", "--at", "9", "--t-end", "9"});
-        const Outcome outcome = call(more, {.folder = folder});
-        INFO(outcome.err);
-        CHECK(outcome.code == 0);
+        const Outcome outcome = done(more, {.folder = folder});
         return outcome.out;
     };
     const std::string steady = rows({"--scene", "steady"});

@@ -19,9 +19,7 @@ json::Value balanced_run(std::vector<std::string> arguments)
 {
     arguments.insert(arguments.begin(), "run");
     arguments.insert(arguments.end(), {"--t-end", "10", "--at", "10", "--format", "json"});
-    const Outcome outcome = call(arguments);
-    INFO(outcome.err);
-    REQUIRE(outcome.code == 0);
+    const Outcome outcome = done(arguments);
     return json::parse(outcome.out);
 }
 
@@ -90,8 +88,7 @@ TEST_CASE("a balance that is lost is warned of, one that is kept is told in a li
 
 TEST_CASE("a run that an event ends has the work up to the event", "[run]")
 {
-    const Outcome outcome = call({"run", "driven_pendulum.toml", "--scene", "tumble", "--at", "0", "--format", "json"});
-    REQUIRE(outcome.code == 0);
+    const Outcome outcome = done({"run", "driven_pendulum.toml", "--scene", "tumble", "--at", "0", "--format", "json"});
     const json::Value tumble = json::parse(outcome.out);
     CHECK(tumble["status"].text == "stopped_by_event");
     CHECK(std::abs(tumble["energy_balance"]["work"].number()) > 0.1);

@@ -24,13 +24,6 @@ long double long_number(const json::Value& value)
     return std::stold(value.text);
 }
 
-std::string written(const std::string& name, const std::string& text)
-{
-    const std::string path = fresh_folder() + "/" + name + ".toml";
-    std::ofstream(path) << text;
-    return path;
-}
-
 const DiscreteCase& case_called(const std::string& name)
 {
     for (const DiscreteCase& each : lagen::discrete_cases())
@@ -60,16 +53,6 @@ std::string scene_text(const ReferenceArrow& first, const std::string& step, std
 
 const Surroundings long_runs{.long_runs = true};
 
-json::Value steps_of(std::vector<std::string> arguments, int code = 0, const Surroundings& around = {})
-{
-    arguments.insert(arguments.begin(), "run");
-    arguments.insert(arguments.end(), {"--format", "json"});
-    const Outcome outcome = call(arguments, around);
-    INFO(outcome.err);
-    REQUIRE(outcome.code == code);
-    return json::parse(outcome.out);
-}
-
 /// The row without its momenta, by column.
 std::map<std::string, long double> arrow_of(const json::Value& found, const json::Value& row, std::size_t momenta)
 {
@@ -96,8 +79,9 @@ TEST_CASE("fifty discrete steps give the reference trajectories of all kinds of 
         const std::vector<json::Value>& steps = file["steps"].entries;
         const ReferenceArrow first = each.arrow(steps[0], file["parameters"]);
         const std::string model =
-            written(each.name, each.model + scene_text(first, file["parameters"]["h"].text, steps.size() - 1));
-        const json::Value found = steps_of({model});
+            written_file(each.name + std::string(".toml"),
+                         each.model + scene_text(first, file["parameters"]["h"].text, steps.size() - 1));
+        const json::Value found = report_of("run", {model});
         CHECK(found["form"].text == "discrete");
         CHECK(found["method"].text == "discrete");
         REQUIRE(found["rows"].size() == steps.size());
@@ -137,7 +121,7 @@ TEST_CASE("the discrete examples follow their references", "[all]")
     for (const Following& each : examples) {
         INFO(each.model);
         const json::Value file = lagen::read_discrete_case(each.name);
-        const json::Value found = steps_of({std::string(each.model) + ".toml"});
+        const json::Value found = report_of("run", {std::string(each.model) + ".toml"});
         REQUIRE(found["rows"].size() > file["steps"].size());
         for (std::size_t k = 0; k < file["steps"].size(); ++k) {
             const ReferenceArrow expected = case_called(each.name).arrow(file["steps"][k], file["parameters"]);
@@ -157,14 +141,15 @@ TEST_CASE("a discrete run starts from the momenta of its first arrow as well", "
     const DiscreteCase& each = case_called(name);
     const json::Value file = lagen::read_discrete_case(name);
     const ReferenceArrow first = each.arrow(file["steps"][0], file["parameters"]);
-    const std::string by_arrow = written(name, each.model + scene_text(first, "0.1", 50));
-    const json::Value expected = steps_of({by_arrow});
+    const std::string by_arrow = written_file(name + std::string(".toml"), each.model + scene_text(first, "0.1", 50));
+    const json::Value expected = report_of("run", {by_arrow});
     std::string initial = name == "verlet_pendulum" ? fmt::format("q = {:.25g}, ", first.coordinates.at("q")) : "";
     for (std::size_t a = 0; a < first.momenta.size(); ++a)
         initial += fmt::format("{}{} = {:.25g}", a == 0 ? "" : ", ",
                                name == "verlet_pendulum" ? "p_v_q" : "p_w" + std::to_string(a + 1), first.momenta[a]);
-    const json::Value found = steps_of(
-        {written(name, each.model + "[scene.default]\nstep = 0.1\nsteps = 50\ninitial = { " + initial + " }\n")});
+    const json::Value found = report_of(
+        "run", {written_file(name + std::string(".toml"),
+                             each.model + "[scene.default]\nstep = 0.1\nsteps = 50\ninitial = { " + initial + " }\n")});
     REQUIRE(found["rows"].size() == expected["rows"].size());
     for (std::size_t k = 0; k < found["rows"].size(); ++k)
         for (std::size_t column = 0; column < found["columns"].size(); ++column)
@@ -176,11 +161,12 @@ TEST_CASE("a discrete body turns by asin(h Omega) a step up to a quarter of a tu
     for (const auto& [speed, most] : {std::pair{0.1, 15}, {0.5, 18}, {0.9, 65}, {0.99, 248}, {0.999, 299}}) {
         INFO("h Omega = " << speed);
         const std::string momenta = fmt::format("p_w1 = 0, p_w2 = 0, p_w3 = {:.17g}", 34 * speed); // I3/h = 34
-        const json::Value run = steps_of({written("body", free_body_from(momenta))});
+        const json::Value run = report_of("run", {written_file("body.toml", free_body_from(momenta))});
         CHECK(run["status"].text == "ok");
         // The first arrow is led to, with a look at det N on twelve points of each part of the way; the others are
         // found at once.
-        const json::Value once = steps_of({written("body", free_body_from(momenta)), "--t-end", "0.1"});
+        const json::Value once =
+            report_of("run", {written_file("body.toml", free_body_from(momenta)), "--t-end", "0.1"});
         CHECK(once["newton_iterations"].number() >= most);
         CHECK(once["newton_iterations"].number() <= most + 2);
         CHECK(run["newton_iterations"].number() <= once["newton_iterations"].number() + 2 * 49);
@@ -188,30 +174,35 @@ TEST_CASE("a discrete body turns by asin(h Omega) a step up to a quarter of a tu
         CHECK(std::abs(long_number(run["rows"][50][2]) + speed) < 1e-13L);
     }
     for (const char* beyond : {"34", "34.034"})
-        CHECK(steps_of({written("body", free_body_from(fmt::format("p_w1 = 0, p_w2 = 0, p_w3 = {}", beyond)))},
-                       1)["status"]
-                  .text == "no_solution");
+        CHECK(
+            report_of("run",
+                      {written_file("body.toml", free_body_from(fmt::format("p_w1 = 0, p_w2 = 0, p_w3 = {}", beyond)))},
+                      1)["status"]
+                .text == "no_solution");
 }
 
 TEST_CASE("the momenta of a discrete step beyond the fold have no arrow, those before it have one", "[run]")
 {
     // About the first axis F^-L = 2 J.. sin(angle)/h = I1 sin(angle)/h: no more than I1/h = 11.
-    const json::Value before = steps_of({written("body", free_body_from("p_w1 = 10.989, p_w2 = 0, p_w3 = 0"))});
+    const json::Value before =
+        report_of("run", {written_file("body.toml", free_body_from("p_w1 = 10.989, p_w2 = 0, p_w3 = 0"))});
     CHECK(before["status"].text == "ok");
     const long double angle = std::asin(0.999L);
     CHECK(std::abs(long_number(before["rows"][0][5]) - std::cos(angle)) <
           1e-12L); // W[2,2] on the branch of small angles
-    const json::Value beyond = steps_of({written("body", free_body_from("p_w1 = 11.011, p_w2 = 0, p_w3 = 0"))}, 1);
+    const json::Value beyond =
+        report_of("run", {written_file("body.toml", free_body_from("p_w1 = 11.011, p_w2 = 0, p_w3 = 0"))}, 1);
     CHECK(beyond["status"].text == "no_solution");
     CHECK(beyond["steps"].text == "0");
 }
 
 TEST_CASE("--branch takes another arrow with the momenta of the start, and the run stays on its branch", "[run]")
 {
-    const std::string model = written("body", free_body_from("p_w1 = 5.5, p_w2 = 0, p_w3 = 0")); // h Omega = 1/2
-    const json::Value first = steps_of({model}), nearest = steps_of({model, "--branch", "1"});
+    const std::string model =
+        written_file("body.toml", free_body_from("p_w1 = 5.5, p_w2 = 0, p_w3 = 0")); // h Omega = 1/2
+    const json::Value first = report_of("run", {model}), nearest = report_of("run", {model, "--branch", "1"});
     CHECK(first["rows"].texts() == nearest["rows"].texts());
-    const json::Value second = steps_of({model, "--branch", "2"});
+    const json::Value second = report_of("run", {model, "--branch", "2"});
     REQUIRE(second["branches"].size() == 4);
     CHECK(second["branches"][0].text == "0");
     CHECK(std::abs(long_number(second["branches"][1]) - std::sqrt(6.0L)) < 1e-14L); // 2 sqrt 2 sin(pi/3)
@@ -221,7 +212,7 @@ TEST_CASE("--branch takes another arrow with the momenta of the start, and the r
         CHECK(std::abs(long_number(second["rows"][row][5]) + std::cos(std::asin(0.5L))) < 1e-14L); // by pi - theta
         CHECK(std::abs(long_number(second["rows"][row][10]) - 5.5L) < 1e-13L);
     }
-    const json::Value missing = steps_of({model, "--branch", "5"}, 1);
+    const json::Value missing = report_of("run", {model, "--branch", "5"}, 1);
     CHECK(missing["status"].text == "no_solution");
     CHECK(missing["rows"].size() == 0);
     CHECK(missing["branches"].texts() == second["branches"].texts());
@@ -230,29 +221,32 @@ TEST_CASE("--branch takes another arrow with the momenta of the start, and the r
                Catch::Contains("\n  branch 5 is not there\n") &&
                    Catch::Contains("\n  arrows with the momenta of the start (`--branch 1` to `--branch 4`) are at the "
                                    "distances 0, 2.44949, 2.82843, 2.82843\n"));
-    CHECK_THAT(call({"run", written("beyond", free_body_from("p_w1 = 11.1, p_w2 = 0, p_w3 = 0")), "--branch", "1"}).err,
-               Catch::Contains("  branch 1 is not there\n") &&
-                   Catch::Contains("  no arrow with the momenta of the start is found\n"));
+    CHECK_THAT(
+        call({"run", written_file("beyond.toml", free_body_from("p_w1 = 11.1, p_w2 = 0, p_w3 = 0")), "--branch", "1"})
+            .err,
+        Catch::Contains("  branch 1 is not there\n") &&
+            Catch::Contains("  no arrow with the momenta of the start is found\n"));
 }
 
 TEST_CASE("a run from an arrow behind the fold goes on behind it", "[run]")
 {
-    const std::string model =
-        written("body", case_called("moser_veselov_so3").model +
-                            "[scene.default]\nstep = 0.1\nsteps = 100\nelement = \"exp(hat([3, 0.3, 0.1]))\"\n");
-    const json::Value run = steps_of({model});
+    const std::string model = written_file(
+        "body.toml", case_called("moser_veselov_so3").model +
+                         "[scene.default]\nstep = 0.1\nsteps = 100\nelement = \"exp(hat([3, 0.3, 0.1]))\"\n");
+    const json::Value run = report_of("run", {model});
     CHECK(run["steps"].text == "100");
     CHECK(run["invariants"]["energy"]["max_drift"].number() < 1e-11L);
 }
 
 TEST_CASE("rows of a discrete run are at its steps, and it takes its step from the command line first", "[run]")
 {
-    const std::string model = written("body", free_body_from("p_w1 = 1, p_w2 = 2, p_w3 = 0.5", "sample = 1\n"));
-    const json::Value tenth = steps_of({model});
+    const std::string model =
+        written_file("body.toml", free_body_from("p_w1 = 1, p_w2 = 2, p_w3 = 0.5", "sample = 1\n"));
+    const json::Value tenth = report_of("run", {model});
     REQUIRE(tenth["rows"].size() == 6);
     CHECK(long_number(tenth["rows"][5][0]) == 5);
     CHECK(tenth["steps"].text == "50");
-    const json::Value all = steps_of({model, "--step", "0.05", "--t-end", "1"});
+    const json::Value all = report_of("run", {model, "--step", "0.05", "--t-end", "1"});
     CHECK(all["rows"].size() == 2);
     CHECK(all["steps"].text == "20");
 }
@@ -265,7 +259,7 @@ TEST_CASE("a million discrete steps of the heavy top stay on their group, and ke
     std::string text = each.model + scene_text(first, "0.1", 1'000'000);
     text += "sample = 10000\nobserve = [\"state\", \"norm(G) - 1\", \"p_w3\", \"p_w1*G[1] + p_w2*G[2] + p_w3*G[3]\", "
             "\"sqrt(trace((transpose(W)*W - identity(3))*(transpose(W)*W - identity(3))))\", \"energy\"]\n";
-    const json::Value found = steps_of({written("top", text), "--no-second-run"}, 0, long_runs);
+    const json::Value found = report_of("run", {written_file("top.toml", text), "--no-second-run"}, 0, long_runs);
     REQUIRE(found["rows"].size() == 11);
     const std::size_t columns = found["columns"].size();
     const auto at = [&](std::size_t row, std::size_t behind) {

@@ -9,7 +9,6 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
-#include <cstdlib>
 
 using namespace lagen::testing;
 using Catch::Contains;
@@ -17,21 +16,6 @@ using Catch::WithinAbs;
 namespace json = lagen::json;
 
 namespace {
-
-json::Value run_of_events(std::vector<std::string> arguments, int code = 0)
-{
-    arguments.insert(arguments.begin(), "run");
-    arguments.insert(arguments.end(), {"--format", "json"});
-    const Outcome outcome = call(arguments);
-    INFO(outcome.err);
-    REQUIRE(outcome.code == code);
-    return json::parse(outcome.out);
-}
-
-double event_number(const json::Value& value)
-{
-    return std::strtod(value.text.c_str(), nullptr);
-}
 
 /// When a ball that is dropped from a metre bounces for the (k + 1)-th time.
 double time_of_bounce(double e, std::size_t k)
@@ -47,26 +31,26 @@ TEST_CASE("each bounce of a ball has its state before and behind it, at the time
          {std::vector<std::string>{}, {"--form", "hamilton"}, {"--method", "taylor"}}) {
         std::vector<std::string> arguments{"bouncing_ball.toml"};
         arguments.insert(arguments.end(), more.begin(), more.end());
-        const json::Value value = run_of_events(arguments);
+        const json::Value value = report_of("run", arguments);
         const std::vector<json::Value>& events = value["events"].entries;
         REQUIRE(events.size() == 11);
         const std::string velocity = more.empty() || more[0] == "--method" ? "v" : "p_v";
         for (std::size_t k = 0; k < events.size(); ++k) {
             CHECK(events[k].keys == std::vector<std::string>{"name", "t", "state", "after"});
             CHECK(events[k]["name"].text == "bounce");
-            CHECK_THAT(event_number(events[k]["t"]), WithinAbs(time_of_bounce(0.9, k), 1e-12));
+            CHECK_THAT(events[k]["t"].decimal(), WithinAbs(time_of_bounce(0.9, k), 1e-12));
             const json::Value &before = events[k]["state"], &after = events[k]["after"];
             CHECK(before.keys == std::vector<std::string>{"x", velocity});
-            CHECK_THAT(event_number(before["x"]), WithinAbs(0, 1e-14));
+            CHECK_THAT(before["x"].decimal(), WithinAbs(0, 1e-14));
             // e^2 of the energy is left, which is that of the velocity
-            const double energy = std::pow(event_number(before[velocity]), 2);
-            CHECK_THAT(std::pow(event_number(after[velocity]), 2), WithinAbs(0.81 * energy, 1e-14 * energy));
-            CHECK(event_number(after[velocity]) > 0);
-            CHECK(event_number(after["x"]) == event_number(before["x"]));
+            const double energy = std::pow(before[velocity].decimal(), 2);
+            CHECK_THAT(std::pow(after[velocity].decimal(), 2), WithinAbs(0.81 * energy, 1e-14 * energy));
+            CHECK(after[velocity].decimal() > 0);
+            CHECK(after["x"].decimal() == before["x"].decimal());
         }
         // between the bounces nothing is lost
-        CHECK_THAT(event_number(value["invariants"]["energy"]["initial"]), WithinAbs(0.15 * 9.81, 1e-15));
-        CHECK(event_number(value["invariants"]["energy"]["max_drift"]) < 1e-12);
+        CHECK_THAT(value["invariants"]["energy"]["initial"].decimal(), WithinAbs(0.15 * 9.81, 1e-15));
+        CHECK(value["invariants"]["energy"]["max_drift"].decimal() < 1e-12);
         CHECK(value["rows"].size() == 601);
     }
 }
@@ -102,10 +86,10 @@ TEST_CASE("`sample` names an event: its crossings are the rows, with the state b
 
 TEST_CASE("infinitely many bounces are zeno, at the time of the closed form", "[run]")
 {
-    const json::Value value = run_of_events({"bouncing_ball.toml", "--scene", "rest"}, 1);
+    const json::Value value = report_of("run", {"bouncing_ball.toml", "--scene", "rest"}, 1);
     CHECK(value["status"].text == "zeno");
     const double limit = std::sqrt(2 / 9.81) * 1.7 / 0.3;
-    CHECK_THAT(event_number(value["t"]), WithinAbs(limit, 1e-12));
+    CHECK_THAT(value["t"].decimal(), WithinAbs(limit, 1e-12));
     CHECK(value["failed_at"].text == value["t"].text);
     const Outcome outcome = call({"run", "bouncing_ball.toml", "--scene", "rest", "-o", fresh_folder() + "/rows.csv"});
     CHECK(outcome.code == 1);
@@ -145,28 +129,28 @@ initial = { z = "z0", v_z = "V" }
 duration = 1
 )toml");
     for (const double speed : {0.0, 0.3, 1.0}) {
-        const json::Value value = run_of_events({floor, "--set", "V=" + std::to_string(speed)}, 1);
+        const json::Value value = report_of("run", {floor, "--set", "V=" + std::to_string(speed)}, 1);
         CHECK(value["status"].text == "zeno");
         const double u = std::sqrt(speed * speed + 2 * 9.81 * 0.1);
         const double limit = (u - speed) / 9.81 + 2 * 0.7 * u / (9.81 * 0.3);
-        CHECK_THAT(event_number(value["t"]), WithinAbs(limit, 1e-12 + 4e-7 * speed));
+        CHECK_THAT(value["t"].decimal(), WithinAbs(limit, 1e-12 + 4e-7 * speed));
     }
     const json::Value elastic =
-        run_of_events({floor, "--scene", "along", "--set", "e=1", "--set", "z0=1e-5", "--method", "taylor"});
+        report_of("run", {floor, "--scene", "along", "--set", "e=1", "--set", "z0=1e-5", "--method", "taylor"});
     CHECK(elastic["status"].text == "ok");
     const double flight = 2 * std::sqrt(2e-5 / 9.81);
     CHECK(elastic["events"].size() == static_cast<std::size_t>(1 / flight + 0.5));
     for (const std::string method : {"dop853", "tsit5", "taylor"}) {
         const json::Value value =
-            run_of_events({floor, "--set", "e=0", "--set", "V=0", "--set", "A=0.02", "--method", method}, 1);
+            report_of("run", {floor, "--set", "e=0", "--set", "V=0", "--set", "A=0.02", "--method", method}, 1);
         CHECK(value["status"].text == "zeno");
-        CHECK_THAT(event_number(value["t"]), WithinAbs(0.1509990598532425, 1e-13));
+        CHECK_THAT(value["t"].decimal(), WithinAbs(0.1509990598532425, 1e-13));
         CHECK(value["events"].size() == 2);
     }
     // a ball of e = 0.7 comes to lie on that table where 40 digits have 1.2566177882
-    const json::Value table = run_of_events({floor, "--set", "V=0", "--set", "A=0.02"}, 1);
+    const json::Value table = report_of("run", {floor, "--set", "V=0", "--set", "A=0.02"}, 1);
     CHECK(table["status"].text == "zeno");
-    CHECK_THAT(event_number(table["t"]), WithinAbs(1.256617788154216, 2e-7));
+    CHECK_THAT(table["t"].decimal(), WithinAbs(1.256617788154216, 2e-7));
 }
 
 TEST_CASE("a rimless wheel comes to the speed of its limit cycle, step by step as the closed form says", "[run]")
@@ -191,23 +175,22 @@ TEST_CASE("a rimless wheel comes to the speed of its limit cycle, step by step a
 
 TEST_CASE("a wheel that rocks on level ground comes to rest by two events in turn", "[run]")
 {
-    const json::Value done = run_of_events({"rimless_wheel.toml", "--scene", "rocking"});
+    const json::Value done = report_of("run", {"rimless_wheel.toml", "--scene", "rocking"});
     CHECK(done["status"].text == "ok");
-    const json::Value value = run_of_events({"rimless_wheel.toml", "--scene", "rocking", "--t-end", "5"}, 1);
+    const json::Value value = report_of("run", {"rimless_wheel.toml", "--scene", "rocking", "--t-end", "5"}, 1);
     CHECK(value["status"].text == "zeno");
     const std::vector<json::Value>& events = value["events"].entries;
     REQUIRE(events.size() > 40);
     // c w behind each impact, and as much before the next: the foot returns to where it came from
     for (std::size_t k = 1; k < 20; ++k) {
         CHECK(events[k]["name"].text != events[k - 1]["name"].text);
-        CHECK_THAT(event_number(events[k]["state"]["w"]) / event_number(events[k - 1]["after"]["w"]),
-                   WithinAbs(-1, 1e-9));
+        CHECK_THAT(events[k]["state"]["w"].decimal() / events[k - 1]["after"]["w"].decimal(), WithinAbs(-1, 1e-9));
     }
 }
 
 TEST_CASE("a Poincare section is a scene whose rows are at an event", "[run]")
 {
-    const json::Value value = run_of_events({"henon_heiles.toml", "--scene", "sea", "--t-end", "200"});
+    const json::Value value = report_of("run", {"henon_heiles.toml", "--scene", "sea", "--t-end", "200"});
     CHECK(value["columns"].texts() == std::vector<std::string>{"t", "y", "v"});
     REQUIRE(value["rows"].size() == value["events"].size());
     REQUIRE(value["rows"].size() > 25);
@@ -216,8 +199,8 @@ TEST_CASE("a Poincare section is a scene whose rows are at an event", "[run]")
         CHECK(value["rows"][k][0].text == event["t"].text);
         CHECK(value["rows"][k][1].text == event["state"]["y"].text);
         CHECK(event.keys == std::vector<std::string>{"name", "t", "state"});
-        CHECK_THAT(event_number(event["state"]["x"]), WithinAbs(0, 1e-11));
-        CHECK(event_number(event["state"]["u"]) > 0);
+        CHECK_THAT(event["state"]["x"].decimal(), WithinAbs(0, 1e-11));
+        CHECK(event["state"]["u"].decimal() > 0);
     }
 }
 
@@ -236,7 +219,7 @@ TEST_CASE("rows of a sweep with jumps are those of `run`, zeno included", "[swee
     for (std::size_t k = 0; k < 3; ++k) {
         const std::string e = table.at(k, "set.e");
         const json::Value value =
-            run_of_events({"bouncing_ball.toml", "--scene", "rest", "--set", "e=" + e}, k == 2 ? 0 : 1);
+            report_of("run", {"bouncing_ball.toml", "--scene", "rest", "--set", "e=" + e}, k == 2 ? 0 : 1);
         CHECK(value["t"].text == table.at(k, "t"));
         CHECK(value["state"]["v"].text == table.at(k, "v"));
         CHECK(std::to_string(value["events"].size()) == table.at(k, "event.bounce.count"));
@@ -248,14 +231,13 @@ TEST_CASE("a ball on its floor is thrown back there, and a run says on which eve
           "[run]")
 {
     const json::Value thrown =
-        run_of_events({"bouncing_ball.toml", "--initial", "x=0", "--initial", "v=-1", "--t-end", "1"});
+        report_of("run", {"bouncing_ball.toml", "--initial", "x=0", "--initial", "v=-1", "--t-end", "1"});
     const std::vector<json::Value>& events = thrown["events"].entries;
     REQUIRE(events.size() > 5);
-    CHECK(event_number(events[0]["t"]) == 0);
-    CHECK(event_number(events[0]["after"]["v"]) == 0.9);
-    CHECK(event_number(thrown["state"]["x"]) > -1e-12);
-    const std::string stop = fresh_folder() + "/stop.toml";
-    write_text(stop, R"toml(
+    CHECK(events[0]["t"].decimal() == 0);
+    CHECK(events[0]["after"]["v"].decimal() == 0.9);
+    CHECK(thrown["state"]["x"].decimal() > -1e-12);
+    const std::string stop = written_file("stop.toml", R"toml(
 [base]
 coordinates = ["x"]
 [algebroid]

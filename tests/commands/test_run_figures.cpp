@@ -24,9 +24,7 @@ Told told_run(std::vector<std::string> arguments, const Surroundings& around = {
 {
     arguments.insert(arguments.begin(), "run");
     arguments.insert(arguments.end(), {"--format", "json"});
-    const Outcome outcome = call(arguments, around);
-    INFO(outcome.err);
-    REQUIRE(outcome.code == 0);
+    const Outcome outcome = done(arguments, around);
     return {json::parse(outcome.out), outcome.err};
 }
 

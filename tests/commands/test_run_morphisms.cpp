@@ -3,7 +3,7 @@
 /// map is a morphism and large where it is none.
 #include "program.hpp"
 
-#include "commands/morphism/projection.hpp"
+#include "scene/projection.hpp"
 #include "support/golden.hpp"
 #include "support/json.hpp"
 #include "text/diagnostic.hpp"
@@ -40,26 +40,11 @@ const std::string body_scene = "initial = { th = 0.3, x = 0.1, y = -0.2 }\n"
 const std::string top_scene = "initial = { ph = 0.2, th = 0.9, ps = 0.5 }\n"
                               "next = { ph = 0.22, th = 0.885, ps = 0.555 }\nsteps = 200\n";
 
-json::Value run_map(std::vector<std::string> arguments)
-{
-    arguments.insert(arguments.begin(), "run");
-    arguments.insert(arguments.end(), {"--format", "json"});
-    const Outcome outcome = call(arguments);
-    INFO(outcome.err);
-    REQUIRE(outcome.code == 0);
-    return json::parse(outcome.out);
-}
-
-double value_of(const json::Value& value)
-{
-    return std::strtod(value.text.c_str(), nullptr);
-}
-
 double entry_of(const json::Value& run, std::size_t row, const std::string& name)
 {
     const std::vector<std::string> names = run["columns"].texts();
     const auto k = static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
-    return value_of(run["rows"][row][k]);
+    return run["rows"][row][k].decimal();
 }
 
 } // namespace
@@ -68,7 +53,7 @@ TEST_CASE("the heavy top in Euler angles projects onto the one on the sphere to 
 {
     const std::string csv = fresh_folder() + "/rows.csv";
     const json::Value value =
-        run_map({morphism_models + "heavy_top_reduction.toml", "--tolerance", "1e-13", "-o", csv});
+        report_of("run", {morphism_models + "heavy_top_reduction.toml", "--tolerance", "1e-13", "-o", csv});
     CHECK(value.keys == std::vector<std::string>{"source", "target", "defect"});
     const json::Value &source = value["source"], &target = value["target"];
     CHECK(source["model"].text == "heavy_top_euler");
@@ -79,8 +64,8 @@ TEST_CASE("the heavy top in Euler angles projects onto the one on the sphere to 
     REQUIRE(source["rows"].size() == 201);
     REQUIRE(target["rows"].size() == 201);
     CHECK(value["defect"]["columns"].keys == std::vector<std::string>{"g1", "g2", "g3", "w1", "w2", "w3"});
-    CHECK(value_of(value["defect"]["max"]) < 1e-11);
-    CHECK(value_of(value["defect"]["max"]) > 0);
+    CHECK(value["defect"]["max"].decimal() < 1e-11);
+    CHECK(value["defect"]["max"].decimal() > 0);
     // By hand, at the last row.
     const double th = entry_of(source, 200, "th"), ps = entry_of(source, 200, "ps");
     const double dph = entry_of(source, 200, "dph"), dth = entry_of(source, 200, "dth"),
@@ -100,10 +85,11 @@ TEST_CASE("the heavy top in Euler angles projects onto the one on the sphere to 
 TEST_CASE("Elroy's beanie on TQ projects onto the one reduced by SE(2), whose motion is lifted to TQ again, to 1e-11",
           "[all]")
 {
-    const json::Value value = run_map({morphism_models + "elroys_beanie_reduction.toml", "--tolerance", "1e-13",
-                                       "--t-end", "5", "--at", "1,5", "--set", "I2=0.7", "--reconstruct"});
+    const json::Value value =
+        report_of("run", {morphism_models + "elroys_beanie_reduction.toml", "--tolerance", "1e-13", "--t-end", "5",
+                          "--at", "1,5", "--set", "I2=0.7", "--reconstruct"});
     CHECK(value.keys == std::vector<std::string>{"source", "target", "defect", "reconstruction"});
-    CHECK(value_of(value["defect"]["max"]) < 1e-11);
+    CHECK(value["defect"]["max"].decimal() < 1e-11);
     const json::Value &source = value["source"], &target = value["target"];
     CHECK(target["columns"].texts() ==
           std::vector<std::string>{"t", "ps", "d", "W", "v1", "v2", "lifted_th", "lifted_x", "lifted_y", "lifted_ps"});
@@ -115,7 +101,7 @@ TEST_CASE("Elroy's beanie on TQ projects onto the one reduced by SE(2), whose mo
     CHECK(std::abs(entry_of(target, 1, "d") - 1.2) > 0.1);
     // The pose is not in the target: the lift has it from the start and the velocity alone.
     CHECK(value["reconstruction"]["columns"].keys == std::vector<std::string>{"th", "x", "y", "ps"});
-    CHECK(value_of(value["reconstruction"]["max"]) < 1e-11);
+    CHECK(value["reconstruction"]["max"].decimal() < 1e-11);
     CHECK(std::abs(entry_of(target, 1, "lifted_x") - entry_of(source, 1, "x")) < 1e-11);
     CHECK(std::abs(entry_of(source, 1, "x") - 2.5) < 1e-11); // the centre moves at the rate 0.5
 }
@@ -123,18 +109,18 @@ TEST_CASE("Elroy's beanie on TQ projects onto the one reduced by SE(2), whose mo
 TEST_CASE("in Hamilton's form momenta are compared by the pull-back of those of the target", "[all]")
 {
     const json::Value value =
-        run_map({morphism_models + "heavy_top_reduction.toml", "--form", "hamilton", "--tolerance", "1e-13"});
+        report_of("run", {morphism_models + "heavy_top_reduction.toml", "--form", "hamilton", "--tolerance", "1e-13"});
     CHECK(value["source"]["form"].text == "hamilton");
     CHECK(value["target"]["form"].text == "hamilton");
     CHECK(value["defect"]["columns"].keys == std::vector<std::string>{"g1", "g2", "g3", "p_dph", "p_dth", "p_dps"});
-    CHECK(value_of(value["defect"]["max"]) < 1e-11);
+    CHECK(value["defect"]["max"].decimal() < 1e-11);
 }
 
 TEST_CASE("arrows of the pair groupoid of SE(2) go to arrows of the group, step by step to round-off", "[run][all]")
 {
     const std::string folder = morphisms_with_scene("se2_pair.toml", body_scene);
-    const json::Value value = run_map({folder + "se2_reduction.toml"});
-    CHECK(value_of(value["defect"]["max"]) < 1e-12);
+    const json::Value value = report_of("run", {folder + "se2_reduction.toml"});
+    CHECK(value["defect"]["max"].decimal() < 1e-12);
     const json::Value &source = value["source"], &target = value["target"];
     REQUIRE(target["rows"].size() == 201);
     CHECK(source["columns"].texts() == std::vector<std::string>{"t", "th", "x", "y", "p_v_th", "p_v_x", "p_v_y"});
@@ -152,14 +138,14 @@ TEST_CASE("arrows of the pair groupoid of SE(2) go to arrows of the group, step 
 TEST_CASE("the discrete top in Euler angles projects onto the one of the action groupoid to round-off", "[all]")
 {
     const std::string folder = morphisms_with_scene("top_pair.toml", top_scene);
-    CHECK(value_of(run_map({folder + "top_reduction.toml"})["defect"]["max"]) < 1e-11);
+    CHECK(report_of("run", {folder + "top_reduction.toml"})["defect"]["max"].decimal() < 1e-11);
 }
 
 TEST_CASE("a charged particle of the circle bundle projects to round-off; by a wrong fibre map it is far off", "[all]")
 {
     const std::string folder = morphisms_with_scene("kaluza_klein.toml", charged_scene);
-    const json::Value value = run_map({folder + "circle_reduction.toml"});
-    CHECK(value_of(value["defect"]["max"]) < 1e-12);
+    const json::Value value = report_of("run", {folder + "circle_reduction.toml"});
+    CHECK(value["defect"]["max"].decimal() < 1e-12);
     CHECK(value["defect"]["columns"].keys ==
           std::vector<std::string>{"x", "y", "W[1,1]", "W[1,2]", "W[2,1]", "W[2,2]", "p_v_x", "p_v_y", "p_v_s"});
 
@@ -172,7 +158,7 @@ TEST_CASE("a charged particle of the circle bundle projects to round-off; by a w
 
     const Outcome unchecked = call({"run", folder + "wrong_fibre.toml", "--unchecked", "--format", "json"});
     CHECK(unchecked.code == 0);
-    CHECK(value_of(json::parse(unchecked.out)["defect"]["max"]) > 1);
+    CHECK(json::parse(unchecked.out)["defect"]["max"].decimal() > 1);
     const Outcome told = call({"run", folder + "wrong_fibre.toml", "--unchecked"});
     CHECK(told.err.starts_with("warning: this morphism is REFUTED: fibre (q, v_s), residual 1\n"));
     CHECK(told.err.find("defect of the projection: at most 2.82, of x at t = 10, in 101 rows\nwarning: the projection "
@@ -191,8 +177,8 @@ TEST_CASE("a composition is run as one map: a body turned twice has its axes whe
     const std::string folder =
         morphisms_with_scene("so3.toml", "initial = { p_w1 = 0.3, p_w2 = 0.5, p_w3 = 0.2 }\nsteps = 50\n");
     std::ofstream(folder + "twice.toml") << "compose = [\"turned.toml\", \"turned.toml\"]\n";
-    const json::Value value = run_map({folder + "twice.toml"});
-    CHECK(value_of(value["defect"]["max"]) < 1e-12);
+    const json::Value value = report_of("run", {folder + "twice.toml"});
+    CHECK(value["defect"]["max"].decimal() < 1e-12);
     // Q^2 = diag(-1, -1, 1)
     CHECK(std::abs(entry_of(value["target"], 50, "p_w1") + entry_of(value["source"], 50, "p_w1")) < 1e-12);
     CHECK(std::abs(entry_of(value["target"], 50, "p_w3") - entry_of(value["source"], 50, "p_w3")) < 1e-12);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The second run of a model reads what the first one proved, and proves again what rested on other values.
-#include "commands/scene/run_record.hpp"
 #include "program.hpp"
+#include "scene/run_record.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -34,8 +34,7 @@ step = 0.1
 steps = 200
 observe = ["x", "y", "p_v_x", "p_v_y", "momentum.rotation"]
 )toml";
-    const Outcome outcome = call({"run", path, "--format", "json"});
-    REQUIRE(outcome.code == 0);
+    const Outcome outcome = done({"run", path, "--format", "json"});
     const json::Value found = json::parse(outcome.out);
     CHECK(found["columns"][5].text == "momentum.rotation");
     REQUIRE(found["rows"].size() == 201);

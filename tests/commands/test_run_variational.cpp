@@ -25,9 +25,7 @@ Finished finished(std::vector<std::string> arguments)
 {
     arguments.insert(arguments.begin(), "run");
     arguments.insert(arguments.end(), {"--format", "json"});
-    const Outcome outcome = call(arguments);
-    INFO(outcome.err);
-    REQUIRE(outcome.code == 0);
+    const Outcome outcome = done(arguments);
     Finished out{{}, json::parse(outcome.out)};
     const json::Value &columns = out.report["columns"], &row = out.report["rows"].entries.back();
     for (std::size_t k = 0; k < columns.size(); ++k) out.last[columns[k].text] = std::stod(row[k].text);

@@ -34,17 +34,10 @@ std::string line_of(std::vector<std::string> arguments)
     return "";
 }
 
-std::string written(const std::string& name, const std::string& text)
-{
-    const std::string path = fresh_folder() + "/" + name + ".toml";
-    write_text(path, text);
-    return path;
-}
-
 /// A pendulum that swings by a nanoradian, far below the absolute tolerance.
 std::string nanoradian(const std::string& scene = "")
 {
-    return written("nanoradian", R"-([base]
+    return written_file("nanoradian.toml", R"-([base]
 coordinates = ["th"]
 [fibre]
 coordinates = ["w"]
@@ -164,7 +157,7 @@ TEST_CASE("a discrete motion is run with half its step, or says why not", "[run]
     CHECK_THAT(line_of({"charged_particle_discrete.toml"}), Catch::Contains("a second run with half the step"));
     const std::string none = "error of the state: a second run with half the step cannot be made: ";
     CHECK(line_of({"moser_veselov.toml"}) == none + "the start is an arrow of one step");
-    const std::string spring = written("spring", R"([parameters]
+    const std::string spring = written_file("spring.toml", R"([parameters]
 h = 0.125
 [base]
 coordinates = ["x"]

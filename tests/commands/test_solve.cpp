@@ -16,12 +16,8 @@ namespace {
 
 std::vector<json::Value> equilibria_of(std::vector<std::string> arguments)
 {
-    arguments.insert(arguments.begin(), "solve");
-    arguments.insert(arguments.end(), {"--relative-equilibria", "--format", "json"});
-    const Outcome outcome = call(arguments);
-    INFO(outcome.err);
-    REQUIRE(outcome.code == 0);
-    return json::parse(outcome.out)["relative_equilibria"].entries;
+    arguments.emplace_back("--relative-equilibria");
+    return report_of("solve", std::move(arguments))["relative_equilibria"].entries;
 }
 
 /// "2 stable, 4 spectrally_unstable"
@@ -63,8 +59,7 @@ namespace {
 
 std::vector<json::Value> equilibria_of_text(const std::string& text)
 {
-    const std::string path = fresh_folder() + "/model.toml";
-    write_text(path, text);
+    const std::string path = written_file("model.toml", text);
     return equilibria_of({path});
 }
 
@@ -188,9 +183,9 @@ TEST_CASE("a circular orbit of Kepler's is one of a family that the rotations ma
 TEST_CASE("neither the boundary of the domain nor infinity is an equilibrium")
 {
     const auto of = [](const std::string& base, const std::string& L, const std::string& start) {
-        const std::string path = fresh_folder() + "/model.toml";
-        write_text(path, "[base]\n" + base + "[algebroid]\nkind = \"tangent\"\n[lagrangian]\nL = \"" + L +
-                             "\"\n[scene.default]\ninitial = { " + start + " }\n");
+        const std::string path =
+            written_file("model.toml", "[base]\n" + base + "[algebroid]\nkind = \"tangent\"\n[lagrangian]\nL = \"" + L +
+                                           "\"\n[scene.default]\ninitial = { " + start + " }\n");
         return equilibria_of({path});
     };
     const auto hoop = of("coordinates = [\"th\", \"ph\"]\ndomain = [\"sin(th) > 0\"]\n",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// What two tables of rows say of the state, without a run.
-#include "commands/scene/second_run.hpp"
-#include "commands/scene/table.hpp"
+#include "commands/report/run.hpp"
+#include "scene/table.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -64,9 +64,7 @@ void check_rows_compiled_with(const std::string& flags)
     std::vector<std::string> arguments{"sweep"};
     arguments.insert(arguments.end(), model.begin(), model.end());
     arguments.insert(arguments.end(), {"--set", "G=2.9e-4:3e-4:9", "-o", file});
-    const Outcome outcome = call(arguments, around);
-    INFO(outcome.err);
-    REQUIRE(outcome.code == 0);
+    const Outcome outcome = done(arguments, around);
     for (const std::size_t row : {0U, 8U}) check_against_run(read_csv(read_text(file)), row, model, around);
 }
 
@@ -78,9 +76,7 @@ CsvTable check_sweep(std::vector<std::string> model, const std::vector<std::stri
     arguments.insert(arguments.begin(), "sweep");
     arguments.insert(arguments.end(), ranges.begin(), ranges.end());
     arguments.insert(arguments.end(), {"-o", file});
-    const Outcome outcome = call(arguments);
-    INFO(outcome.err);
-    REQUIRE(outcome.code == 0);
+    const Outcome outcome = done(arguments);
     CsvTable table = read_csv(read_text(file));
     REQUIRE(table.rows.size() == rows);
     for (std::size_t row = 0; row < rows; row += 1 + rows / 2) check_against_run(table, row, model);
@@ -93,9 +89,7 @@ std::pair<std::vector<std::string>, std::string> statuses_of(std::vector<std::st
 {
     arguments.insert(arguments.begin(), "sweep");
     arguments.insert(arguments.end(), {"-o", file});
-    const Outcome outcome = call(arguments);
-    INFO(outcome.err);
-    CHECK(outcome.code == 0);
+    const Outcome outcome = done(arguments);
     std::vector<std::string> found;
     const CsvTable table = read_csv(read_text(file));
     for (std::size_t k = 0; k < table.rows.size(); ++k) {
@@ -192,9 +186,7 @@ TEST_CASE("threads and parts change nothing", "[sweep]")
         std::vector<std::string> arguments{"sweep",     "heavy_top.toml", "--random", "150",          "--seed", "7",
                                            "--initial", "w3=-4:4",        "--set",    "mgl=-0.5:0.5", "-o",     name};
         arguments.insert(arguments.end(), more.begin(), more.end());
-        const Outcome outcome = call(arguments, {.folder = folder});
-        INFO(outcome.err);
-        REQUIRE(outcome.code == 0);
+        const Outcome outcome = done(arguments, {.folder = folder});
         return read_text(folder + "/" + name);
     };
     write_text(folder + "/heavy_top.toml", read_text(models_folder() + "/heavy_top.toml"));
@@ -238,8 +230,13 @@ TEST_CASE("threads and parts change nothing", "[sweep]")
           "lagen sweep: 'part2.csv' and 'other.csv' are not parts of the same sweep\n");
     const std::string part = read_text(folder + "/part1.csv");
     write_text(folder + "/part1.csv", part.substr(0, part.size() - 30));
+    const std::string mark = read_text(folder + "/merged.csv.sweep"), unfinished = "of another sweep";
+    write_text(folder + "/merged.csv.partial", unfinished);
     CHECK(merge({"part2.csv", "part0.csv", "part1.csv"}).err ==
           "lagen sweep: 'part1.csv' has no line that begins with '148,' where it must stand\n");
+    CHECK(read_text(folder + "/merged.csv") == whole);
+    CHECK(read_text(folder + "/merged.csv.sweep") == mark);
+    CHECK(read_text(folder + "/merged.csv.partial") == unfinished);
 }
 
 TEST_CASE("draws are those of Philox, in their range, and row k does not depend on how many there are", "[sweep]")
@@ -264,9 +261,8 @@ TEST_CASE("draws are those of Philox, in their range, and row k does not depend 
 
     const std::string folder = fresh_folder();
     const auto drawn = [&](const std::string& count, const std::string& seed) {
-        const Outcome outcome = call({"sweep", "oscillator.toml", "--random", count, "--seed", seed, "--initial",
+        const Outcome outcome = done({"sweep", "oscillator.toml", "--random", count, "--seed", seed, "--initial",
                                       "x=2:3", "--initial", "v=-1:0", "-o", folder + "/a.csv"});
-        REQUIRE(outcome.code == 0);
         return read_text(folder + "/a.csv");
     };
     const std::string nine = drawn("9", "18446744073709551");

@@ -4,8 +4,8 @@
 
 #include "support/golden.hpp"
 
-#include "commands/scene/table.hpp"
 #include "commands/sweep/sweep_run.hpp"
+#include "scene/table.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -72,10 +72,11 @@ TEST_CASE("a slip in a command, an option or a choice is answered with the neare
     refused({"derive", "pendulum.toml", "--format", "latx"}, 4,
             "lagen derive: --format is 'latx', it must be one of text, latex, json; did you mean 'latex'?\n");
     refused({"generate", "pendulum.toml", "--form", "lagrnge"}, 4,
-            "lagen generate: --form is 'lagrnge', it must be one of lagrange, hamilton, pontryagin, discrete; did "
+            "lagen generate: --form is 'lagrnge', it must be one of lagrange, hamilton, pontryagin, discrete, "
+            "first_order; did "
             "you mean 'lagrange'?\n");
     refused({"run", "pendulum.toml", "--form", "newton"}, 4,
-            "lagen run: --form is 'newton', it must be one of lagrange, hamilton, pontryagin, discrete\n");
+            "lagen run: --form is 'newton', it must be one of lagrange, hamilton, pontryagin, discrete, first_order\n");
     refused({"run", "pendulum.toml", "--method", "rk44"}, 4,
             "lagen run: unknown method 'rk44'\nhint: did you mean 'rk4'?\n");
     refused({"run", "pendulum.toml", "--method", "rk4"}, 4,

@@ -18,12 +18,7 @@ namespace {
 
 json::Value action_of(std::vector<std::string> arguments)
 {
-    arguments.insert(arguments.begin(), "run");
-    arguments.insert(arguments.end(), {"--format", "json"});
-    const Outcome outcome = call(arguments);
-    INFO(outcome.err);
-    REQUIRE(outcome.code == 0);
-    return json::parse(outcome.out)["action"];
+    return report_of("run", std::move(arguments))["action"];
 }
 
 } // namespace
@@ -68,8 +63,9 @@ TEST_CASE("the terms of a first variation bound what its parts come to", "[run]"
 TEST_CASE("the second variation of a short motion is positive, and that beyond a conjugate point is not always",
           "[run]")
 {
-    const std::string path = fresh_folder() + "/oscillator.toml";
-    write_text(path, "[base]\ncoordinates = [\"q\"]\n[algebroid]\nkind = \"tangent\"\n[lagrangian]\nL = \"(v_q^2 - "
+    const std::string path =
+        written_file("oscillator.toml",
+                     "[base]\ncoordinates = [\"q\"]\n[algebroid]\nkind = \"tangent\"\n[lagrangian]\nL = \"(v_q^2 - "
                      "q^2)/2\"\n[scene.default]\ninitial = { q = 1, v_q = 0 }\nduration = 3\n");
     const auto least = [&](const char* end) {
         long double value = INFINITY;
@@ -83,12 +79,12 @@ TEST_CASE("the second variation of a short motion is positive, and that beyond a
 
 TEST_CASE("Jacobi fields of constant curvature are sines and hyperbolic sines", "[run]")
 {
-    const std::string path = fresh_folder() + "/sphere.toml";
-    write_text(path,
-               "[base]\ncoordinates = [\"th\", \"ph\"]\ndomain = [\"sin(th) > 0\"]\n[fibre]\ncoordinates = [\"w\", "
-               "\"v\"]\n[algebroid]\nkind = \"tangent\"\n[lagrangian]\nL = \"(w^2 + sin(th)^2*v^2)/2\"\n"
-               "[scene.default]\ninitial = { th = \"pi/2\", ph = 0, w = 0, v = 1 }\nduration = \"pi\"\n"
-               "observe = [\"th\"]\n");
+    const std::string path = written_file(
+        "sphere.toml",
+        "[base]\ncoordinates = [\"th\", \"ph\"]\ndomain = [\"sin(th) > 0\"]\n[fibre]\ncoordinates = [\"w\", "
+        "\"v\"]\n[algebroid]\nkind = \"tangent\"\n[lagrangian]\nL = \"(w^2 + sin(th)^2*v^2)/2\"\n"
+        "[scene.default]\ninitial = { th = \"pi/2\", ph = 0, w = 0, v = 1 }\nduration = \"pi\"\n"
+        "observe = [\"th\"]\n");
     for (const double end : {1.0, std::numbers::pi / 2, std::numbers::pi}) {
         const std::vector<double> row =
             last_row({path, "--jacobi-field", "w=1", "--tolerance", "1e-13", "--t-end", std::to_string(end)});

@@ -115,3 +115,19 @@ TEST_CASE("Jacobi's identity of almost Poisson brackets is decided, not read off
     const std::string moved = print_text(constrained_equations("poisson", flat + "[forces]\nv_x = 1\n"));
     CHECK(moved.find("df/dt = {h, f}") == std::string::npos);
 }
+
+TEST_CASE("where terms of third degree cancel, Hamilton's form is as without them or says what is undecided")
+{
+    const auto with = [&](const std::string& coefficient) {
+        std::string text = sleigh;
+        return text.replace(text.find("J*v_th^2/2"), 10, "J*v_th^2/2 + (" + coefficient + ")*v_th^3");
+    };
+    const std::string plain = print_text(constrained_equations("hamilton", sleigh));
+    for (const char* zero : {"x*(y + 1) - x*y - x", "sin(x)^2 + cos(x)^2 - 1", "x^(1/3)*x^(2/3) - x"}) {
+        const std::string text = print_text(constrained_equations("hamilton", with(zero)));
+        const std::string brackets = text.substr(0, std::min(text.find("Jacobiator"), text.find("statements")));
+        CHECK(plain.starts_with(brackets));
+        CHECK((text == plain ||
+               text.ends_with("  undecided  J(f, g, h) = 0\n             known: L has terms that cancel\n")));
+    }
+}

@@ -49,11 +49,11 @@ bool is_called(const SourceText& literal, const char* ending)
 bool is_message(const std::string& path, const SourceText& literal)
 {
     const auto in = [&](const char* room) { return path.find(std::string("/generator/") + room) != std::string::npos; };
-    if (word_count(literal.text) < 3 || is_called(literal, "InternalError")) return false;
-    const bool documents =
-        path.ends_with("/json_schema.cpp") || (path.ends_with("/schema_table.cpp") && !is_called(literal, "like") &&
-                                               !literal.text.starts_with("source = ")); // `lagen schema` prints it
-    if (documents || literal.text.starts_with(" EOF FILE ")) return false;              // or it is no sentence
+    const bool sentence = word_count(literal.text) >= 3 && literal.text.find(' ') != std::string::npos;
+    if (!sentence || is_called(literal, "InternalError")) return false;
+    const bool documents = path.ends_with("/schema_table.cpp") && !is_called(literal, "like") &&
+                           !literal.text.starts_with("source = ");         // `lagen schema` prints it
+    if (documents || literal.text.starts_with(" EOF FILE ")) return false; // or it is no sentence
     if (in("graph/") || in("proof/") || in("symbolic/")) return false;
     return in("expression/") || in("model/") || is_called(literal, "Error") || is_called(literal, "refuse") ||
            is_called(literal, "fail");
@@ -62,6 +62,7 @@ bool is_message(const std::string& path, const SourceText& literal)
 /// Pieces of messages that never stand alone, and guards of a room against callers that the rooms before it rule out.
 constexpr std::array guards{
     " moving base coordinates, but the fibre has ",
+    "; may use every name of the model", // of `lagen schema`
     "Error while parsing ",
     "a built-in quantity",
     "a vector has one entry at least",

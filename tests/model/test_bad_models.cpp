@@ -130,8 +130,9 @@ TEST_CASE("a model has at most 200 scenes, a scene 1000 events and 100000 times"
     for (int k = 0; k < 201; ++k) scenes += "[scene.a" + std::to_string(k) + "]\n" + scene;
     for (int k = 0; k < 1001; ++k) events += "e" + std::to_string(k) + " = { when = 'q' }\n";
     for (int k = 0; k < 100'000; ++k) times += ", 0";
-    CHECK_THAT(error_of("m.toml", scenes), Contains(": error: the model has 201 scenes, more than 200\n"));
-    CHECK_THAT(error_of("m.toml", events), Contains(": error: scene 'a' has 1001 events, more than 1000\n"));
+    CHECK_THAT(error_of("m.toml", scenes), Contains(": error: [scene] has 201 scenes, more than 200\n"));
+    CHECK_THAT(error_of("m.toml", events),
+               Contains(": error: 'events' of scene 'a' has 1001 events, more than 1000\n"));
     CHECK_THAT(error_of("m.toml", times + "]\n"),
                Contains(": error: 'at' of scene 'a' has 100001 times, more than 100000\n"));
 }

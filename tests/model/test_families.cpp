@@ -12,9 +12,9 @@
 
 namespace {
 
-using lagen::FamilyRole;
 using lagen::Model;
 using lagen::read_model_text;
+using lagen::Role;
 using lagen::Setting;
 using lagen::to_text;
 using Texts = std::vector<std::string>;
@@ -117,8 +117,8 @@ TEST_CASE("families are flattened in the order of the file, and remembered")
     CHECK(families == Texts{"m a vector of 3 from 0", "c a vector of 3 from 4", "W a 2 x 3 matrix from 7",
                             "I a 2 x 2 matrix from 13", "x a vector of 3 from 0", "v_x a vector of 3 from 0",
                             "p_v_x a vector of 3 from 0"});
-    CHECK((model.families[0].role == FamilyRole::parameter && model.families[4].role == FamilyRole::base));
-    CHECK((model.families[5].role == FamilyRole::fibre && model.families[6].role == FamilyRole::momentum));
+    CHECK((model.families[0].role == Role::parameter && model.families[4].role == Role::base));
+    CHECK((model.families[5].role == Role::fibre && model.families[6].role == Role::momentum));
 }
 
 TEST_CASE("expressions with families close to scalars over the entries")
@@ -215,7 +215,7 @@ TEST_CASE("a setting that fits nothing says so")
 TEST_CASE("a key names a symbol, an entry or a whole family")
 {
     const Model model = read_model_text("crowd.toml", crowd);
-    const std::vector<lagen::Symbol> symbols = lagen::parameter_symbols(model);
+    const std::vector<lagen::Symbol> symbols = lagen::symbols_of(model, lagen::Role::parameter);
     const auto whole = lagen::resolve_key(symbols, "W");
     REQUIRE(whole);
     CHECK(whole->shape == lagen::Shape{lagen::Rank::matrix, 2, 3});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Hamiltonians, forces, dissipation and control problems: what a file says is what the record holds.
 #include "expression/parse.hpp"
+#include "model/names.hpp"
 #include "model/read_model.hpp"
 #include "model/scene_form.hpp"
 #include "scene/evaluate_scene.hpp"
@@ -142,7 +143,7 @@ u = { unit = "N", latex = "\\tau" }
     CHECK(to_text(problem.boundary->terminal_cost) == "m*x^2");
     const auto& families = model.families;
     REQUIRE(families.size() == 1);
-    CHECK((families[0].name == "w" && families[0].role == lagen::FamilyRole::control && families[0].first == 1));
+    CHECK((families[0].name == "w" && families[0].role == lagen::Role::control && families[0].first == 1));
 }
 
 TEST_CASE("the default form is that of a control problem, else of L, else of H")

@@ -134,9 +134,10 @@ TEST_CASE("a scene that is like another starts as its copy")
 {
     const Model model = read_model_text("heavy_top.toml", top);
     const lagen::Scene& scene = lagen::find_scene(model, "second");
-    REQUIRE(scene.initial.size() == 4);
+    REQUIRE(scene.initial.size() == 6); // two are at rest
     CHECK(to_text(scene.initial[2].value) == "1");
     CHECK(to_text(scene.initial[3].value) == "alpha/10");
+    CHECK(to_text(scene.initial[5].value) == "0");
     CHECK(scene.rest);
     CHECK(scene.project);
     CHECK(scene.method == "dop853");

@@ -2,7 +2,7 @@
 /// How long a step of each method may be on linear equations: what LinearLimits says, exactly, and rounded once.
 #pragma once
 
-#include "commands/scene/linear_limits.hpp"
+#include "scene/linear_limits.hpp"
 
 #include <string>
 #include <vector>

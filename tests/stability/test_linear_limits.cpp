@@ -37,7 +37,7 @@ std::string table_text()
 /// tests/stability computes them exactly, from the coefficients that the runtime steps with, and rounds once.
 #pragma once
 
-#include "commands/scene/linear_limits.hpp"
+#include "scene/linear_limits.hpp"
 
 #include <array>
 
@@ -196,5 +196,5 @@ TEST_CASE("steps of the runtime grow beyond the interval and not inside of it")
 
 TEST_CASE("the program's table of intervals is what the coefficients give")
 {
-    lagen::testing::check_text("generator/commands/scene/linear_limits_table.hpp", table_text());
+    lagen::testing::check_text("generator/scene/linear_limits_table.hpp", table_text());
 }

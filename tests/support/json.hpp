@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cctype>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -38,6 +39,7 @@ struct Value {
     [[nodiscard]] const Value& operator[](std::size_t k) const { return entries.at(k); }
     [[nodiscard]] std::size_t size() const { return entries.size(); }
     [[nodiscard]] long double number() const { return std::stold(text); }
+    [[nodiscard]] double decimal() const { return std::strtod(text.c_str(), nullptr); }
     /// The texts of an array of texts or numbers.
     [[nodiscard]] std::vector<std::string> texts() const
     {

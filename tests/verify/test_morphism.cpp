@@ -2,7 +2,7 @@
 /// Morphisms of algebroids and of groupoids, true and false ones of every sort: which claims hold, which are refuted
 /// and where, and what follows.
 #include "elaborate/elaborate_morphism.hpp"
-#include "model/read_file.hpp"
+#include "model/read_values.hpp"
 #include "verify/checking.hpp"
 #include "verify/verify_morphism.hpp"
 

@@ -2,13 +2,13 @@
 #include "commands/chart/accuracy.hpp"
 
 #include "commands/chart/report.hpp"
-#include "commands/scene/integrate_scene.hpp"
-#include "commands/scene/preparation.hpp"
-#include "commands/scene/run_record.hpp"
-#include "commands/scene/scene_options.hpp"
+#include "commands/line/scene_options.hpp"
 #include "machine/compile_cache.hpp"
 #include "machine/write_file.hpp"
 #include "model/scene_form.hpp"
+#include "scene/integrate_scene.hpp"
+#include "scene/preparation.hpp"
+#include "scene/run_record.hpp"
 
 #include <fmt/core.h>
 
@@ -65,8 +65,7 @@ Table states_with(double parameter, const MethodEntry& method, const RunRecord& 
 }
 
 /// The program for this accuracy, and those that other ones will ask for, at once.
-void compile_best(const CheckedModel& checked, const Scene& scene, const std::string& form, const KeptChart& chart,
-                  double accuracy)
+void compile_best(const CheckedModel& checked, const Scene& scene, const KeptChart& chart, double accuracy)
 {
     std::vector<double> errors{accuracy};
     errors.insert(errors.end(), std::begin(charted_errors), std::end(charted_errors));
@@ -76,7 +75,7 @@ void compile_best(const CheckedModel& checked, const Scene& scene, const std::st
         const ChartPoint* best = cheapest_within(chart.points, error);
         if (best == nullptr || std::ranges::find(methods, best->method) != methods.end()) continue;
         methods.push_back(best->method);
-        programs.push_back(scene_text(checked, scene, form, *find_method(best->method), run_driver).text);
+        programs.push_back(scene_text(checked, scene, *find_method(best->method), run_driver).text);
     }
     if (chart.obstacle.empty()) compile_programs(programs);
 }
@@ -96,10 +95,9 @@ std::optional<AccurateMethod> accurate_method(const Options& options, const Chec
         write_standard_error("no chart of this scene is kept: it is made now\n");
         CheckedModel own = charted_model(options, path);
         const Scene scene = scene_of(options, own.model, options.named("initial"));
-        const std::string form = form_of(own.model, scene);
-        kept = kept_chart(make_chart(own, {scene, form}));
+        kept = kept_chart(make_chart(own, {scene}));
         keep_chart(file, *kept);
-        compile_best(own, scene, form, *kept, accuracy);
+        compile_best(own, scene, *kept, accuracy);
     }
     return choose_method(*kept, accuracy);
 }

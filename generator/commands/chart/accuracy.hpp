@@ -5,8 +5,8 @@
 
 #include "commands/chart/chart.hpp"
 #include "commands/line/options.hpp"
-#include "commands/scene/run_record.hpp"
-#include "commands/scene/table.hpp"
+#include "scene/run_record.hpp"
+#include "scene/table.hpp"
 
 namespace lagen {
 

@@ -2,12 +2,12 @@
 #include "commands/chart/chart.hpp"
 
 #include "commands/line/options.hpp"
-#include "commands/scene/preparation.hpp"
 #include "elaborate/bind_parameters.hpp"
 #include "emit/print_header.hpp"
 #include "lagen_run/archive.hpp"
 #include "machine/write_file.hpp"
-#include "text/diagnostic.hpp"
+#include "scene/preparation.hpp"
+#include "text/comma_list.hpp"
 
 #include <fmt/core.h>
 
@@ -79,13 +79,6 @@ constexpr std::array peers{
               "-lsundials_cvode,-lsundials_nvecserial,-lsundials_sunnonlinsolfixedpoint",
               {"cvode_adams", nullptr, nullptr}},
 };
-
-std::string main_with(const std::string& header, const std::string& call)
-{
-    return fmt::format("#include \"model.hpp\"\n#include \"lagen_chart/{}.hpp\"\nint main(int argc, char** "
-                       "argv)\n{{\n    return lagen::{};\n}}\n",
-                       header, call);
-}
 
 constexpr std::size_t quick_repeats = 5, slow_repeats = 3;
 constexpr double slow_round = 10; ///< seconds
@@ -187,16 +180,9 @@ std::vector<MethodFamily> method_families(const ChartProblem& problem, const std
     std::vector<MethodFamily> list;
     for (const auto& [kinship, methods] : families) {
         MethodFamily family;
-        std::string types, names;
-        for (const MethodEntry* method : methods) {
-            family.methods.push_back({method->name, method->adaptive});
-            types += fmt::format(", lagen::{}", method->type);
-            names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", method->name);
-        }
-        family.text = {problem.header,
-                       main_with("points", fmt::format("chart_points<lagen::models::{}<double>{}>({{{}}}, argc, "
-                                                       "argv)",
-                                                       class_name(problem.module.name), types, names))};
+        for (const MethodEntry* method : methods) family.methods.push_back({method->name, method->adaptive});
+        family.text = {problem.header, main_text({"model.hpp", "lagen_chart/points.hpp"},
+                                                 call_of("chart_points", problem.module, methods))};
         list.push_back(std::move(family));
     }
     return list;
@@ -217,8 +203,9 @@ std::vector<MethodFamily> peer_families(const ChartProblem& problem, std::vector
         for (const char* method : peer.methods)
             if (method != nullptr) family.methods.push_back({method, true});
         family.text = {problem.header,
-                       main_with(peer.name, fmt::format("chart_peer<lagen::models::{}<double>>(argc, argv)",
-                                                        class_name(problem.module.name))),
+                       main_text({"model.hpp", fmt::format("lagen_chart/{}.hpp", peer.name)},
+                                 fmt::format("chart_peer<lagen::models::{}<double>>(argc, argv)",
+                                             class_name(problem.module.name))),
                        split_list(peer.libraries)};
         list.push_back(std::move(family));
     }
@@ -274,12 +261,12 @@ CheckedModel charted_model(const Options& options, const std::string& path)
 
 Chart make_chart(CheckedModel& checked, const ChartRequest& request)
 {
-    ChartProblem problem = chart_problem(checked, request.scene, request.form);
+    ChartProblem problem = chart_problem(checked, request.scene);
     Chart chart;
     chart.model = checked.model.name;
     chart.title = checked.model.title;
     chart.scene = request.scene.name;
-    chart.form = request.form;
+    chart.form = request.scene.form;
     chart.energy_changes = has_kernel(problem.module, "power");
     std::vector<MethodFamily> families = method_families(problem, request.methods, chart.left_out);
     if (request.peers)
@@ -311,6 +298,16 @@ const ChartPoint* cheapest_within(const std::vector<ChartPoint>& points, double 
     for (const ChartPoint& point : points)
         if (point.error && *point.error <= error && (best == nullptr || point.seconds < best->seconds)) best = &point;
     return best;
+}
+
+std::string call_of(const char* function, const KernelModule& module, const std::vector<const MethodEntry*>& methods)
+{
+    std::string types;
+    for (const MethodEntry* method : methods) types += fmt::format(", lagen::{}", method->type);
+    const std::string names =
+        comma_list(methods, [](const MethodEntry* method) { return fmt::format("\"{}\"", method->name); });
+    return fmt::format("{}<lagen::models::{}<double>{}>({{{}}}, argc, argv)", function, class_name(module.name), types,
+                       names);
 }
 
 std::string obstacle_to(const MethodEntry& method, const ChartProblem& problem)

@@ -4,9 +4,9 @@
 
 #include "commands/chart/reference.hpp"
 #include "commands/line/options.hpp"
-#include "commands/scene/methods.hpp"
 #include "machine/compile.hpp"
 #include "pipeline.hpp"
+#include "scene/methods.hpp"
 
 #include <optional>
 #include <string>
@@ -57,8 +57,7 @@ struct Chart {
 
 /// What a chart is made of besides the model.
 struct ChartRequest {
-    Scene scene;
-    std::string form;
+    Scene scene;                                  ///< with its form
     std::vector<const MethodEntry*> methods = {}; ///< empty: all that apply
     bool peers = false;                           ///< other libraries too, where they are installed
 };
@@ -76,6 +75,10 @@ struct ChartRequest {
 
 /// The errors for which the best point is told.
 inline constexpr double charted_errors[] = {1e-3, 1e-6, 1e-9, 1e-12};
+
+/// The call of a function of a chart's program that runs these methods: their types, then their names.
+[[nodiscard]] std::string call_of(const char* function, const KernelModule& module,
+                                  const std::vector<const MethodEntry*>& methods);
 
 /// Why the method does not apply, in terms of the model; empty where it does.
 [[nodiscard]] std::string obstacle_to(const MethodEntry& method, const ChartProblem& problem);

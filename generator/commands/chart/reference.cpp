@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/chart/reference.hpp"
 
-#include "commands/scene/methods.hpp"
-#include "commands/scene/scene_program.hpp"
-#include "commands/scene/start_state.hpp"
 #include "emit/print_header.hpp"
 #include "lagen_run/archive.hpp"
 #include "machine/process.hpp"
 #include "machine/temporary_folder.hpp"
 #include "machine/write_file.hpp"
+#include "scene/methods.hpp"
 #include "scene/sample_times.hpp"
+#include "scene/scene_program.hpp"
+#include "scene/start_state.hpp"
 #include "text/diagnostic.hpp"
 
 #include <fmt/core.h>
@@ -133,11 +133,10 @@ std::vector<ProgramText> reference_programs(const ChartProblem& problem)
 {
     std::vector<ProgramText> programs;
     for (const std::string& method : reference_methods(problem)) {
-        const std::string text = fmt::format(
-            "#include \"lagen_chart/quad.hpp\"\n#include \"model.hpp\"\n#include \"lagen_chart/reference.hpp\"\nint "
-            "main(int argc, char** argv)\n{{\n    return lagen::chart_reference<lagen::models::{}<lagen::Quad>, "
-            "lagen::{}>(argc, argv);\n}}\n",
-            class_name(problem.module.name), find_method(method)->type);
+        const std::string text =
+            main_text({"lagen_chart/quad.hpp", "model.hpp", "lagen_chart/reference.hpp"},
+                      fmt::format("chart_reference<lagen::models::{}<lagen::Quad>, lagen::{}>(argc, argv)",
+                                  class_name(problem.module.name), find_method(method)->type));
         programs.push_back({problem.header, text, {"-lquadmath"}});
     }
     return programs;
@@ -176,7 +175,7 @@ ChartReference make_reference(ChartProblem& problem, const std::array<std::strin
     return reference;
 }
 
-ChartProblem chart_problem(CheckedModel& checked, const Scene& whole, const std::string& form)
+ChartProblem chart_problem(CheckedModel& checked, const Scene& whole)
 {
     const Scene scene = bare_scene(whole);
     const SceneValues values = evaluate_scene(checked.model, scene);
@@ -184,7 +183,7 @@ ChartProblem chart_problem(CheckedModel& checked, const Scene& whole, const std:
     set_parameters(checked, parameters);
     ChartProblem problem;
     problem.parameters = doubles_of(parameters);
-    StartState start([&](bool) -> const CheckedModel& { return checked; }, form);
+    StartState start(checked, scene.form);
     problem.initial = doubles_of(finite_start(start, values, scene));
     const SampleTimes times = sample_times(scene, values, problem.initial.size() + 1, true);
     problem.start = static_cast<double>(times.start);
@@ -197,7 +196,7 @@ ChartProblem chart_problem(CheckedModel& checked, const Scene& whole, const std:
         sample_evenly(problem, even_samples);
     problem.events = scene.events;
     GenerateRequest request;
-    request.form = form;
+    request.form = scene.form;
     request.scene = &scene;
     request.with = {"taylor"};
     request.flows = true;

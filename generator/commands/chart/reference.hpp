@@ -25,7 +25,7 @@ struct ChartProblem {
 
 /// The start, the times (those of `at`, else 21 even ones) and the header of a scene in a form, with Taylor
 /// coefficients where there are any. `checked` is decided anew for the scene's parameters.
-[[nodiscard]] ChartProblem chart_problem(CheckedModel& checked, const Scene& scene, const std::string& form);
+[[nodiscard]] ChartProblem chart_problem(CheckedModel& checked, const Scene& scene);
 
 /// `count` even times from the start to the end of the problem.
 void sample_evenly(ChartProblem& problem, std::size_t count);

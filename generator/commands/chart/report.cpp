@@ -2,6 +2,7 @@
 #include "commands/chart/report.hpp"
 
 #include "machine/gnuplot.hpp"
+#include "text/comma_list.hpp"
 #include "text/record.hpp"
 
 #include <fmt/core.h>
@@ -54,9 +55,8 @@ std::vector<std::string> drift_names(const Chart& chart)
 {
     std::vector<std::string> names;
     for (const ChartPoint& point : chart.points)
-        for (const auto& [name, drift] : point.drifts)
-            if (std::ranges::find(names, name) == names.end()) names.push_back(name);
-    return names;
+        for (const auto& [name, drift] : point.drifts) names.push_back(name);
+    return distinct(names);
 }
 
 std::string best_lines(const Chart& chart)
@@ -400,10 +400,7 @@ std::string parameter_text(const ChartPoint& point)
 
 std::vector<std::string> charted_methods(const Chart& chart)
 {
-    std::vector<std::string> names;
-    for (const ChartPoint& point : chart.points)
-        if (std::ranges::find(names, name_of(point)) == names.end()) names.push_back(name_of(point));
-    return names;
+    return distinct(chart.points, name_of);
 }
 
 std::vector<std::string> charted_invariants(const Chart& chart)
@@ -456,8 +453,8 @@ std::string chart_csv(const Chart& chart)
 
 std::string chart_text(const Chart& chart)
 {
-    std::string text = fmt::format("{}, scene {}, {} form, {} samples from t = {:.9g} to {:.9g}\n", chart.model,
-                                   chart.scene, chart.form, chart.times.size(), chart.start, chart.end);
+    std::string text = fmt::format("{}, scene {}, {} form, {} from t = {:.9g} to {:.9g}\n", chart.model, chart.scene,
+                                   chart.form, count_text(chart.times.size(), "sample"), chart.start, chart.end);
     if (!chart.shortened.empty()) text += fmt::format("the chart ends at t = {:.9g}: {}\n", chart.end, chart.shortened);
     text += fmt::format("reference: {} and {} in 113 bits differ by {:.1e}\n", chart.reference_methods[0],
                         chart.reference_methods[1], chart.reference_error);

@@ -4,14 +4,9 @@
 #include "commands/chart/chart.hpp"
 #include "commands/chart/reference.hpp"
 #include "commands/line/options.hpp"
-#include "commands/scene/linear_limits.hpp"
-#include "commands/scene/methods.hpp"
-#include "commands/scene/scene_options.hpp"
-#include "commands/scene/scene_program.hpp"
-#include "commands/scene/start_state.hpp"
+#include "commands/line/scene_options.hpp"
 #include "elaborate/variational_model.hpp"
 #include "emit/print_header.hpp"
-#include "graph/core/graph.hpp"
 #include "lagen_run/archive.hpp"
 #include "linear/linear_system.hpp"
 #include "machine/compile.hpp"
@@ -19,7 +14,11 @@
 #include "model/families.hpp"
 #include "model/plain_names.hpp"
 #include "model/scene_form.hpp"
+#include "scene/linear_limits.hpp"
+#include "scene/methods.hpp"
 #include "scene/sample_times.hpp"
+#include "scene/scene_program.hpp"
+#include "scene/start_state.hpp"
 
 #include <fmt/core.h>
 
@@ -83,8 +82,7 @@ std::size_t step_number(const Model& model)
 class CellStarts {
   public:
     CellStarts(CheckedModel& checked, const Scene& scene, const StabilityChart& chart)
-        : model_(checked.model), scene_(scene), chart_(chart),
-          start_([&checked](bool) -> const CheckedModel& { return checked; }, scene.form), evaluate_(model_, scene)
+        : model_(checked.model), scene_(scene), chart_(chart), start_(checked, scene.form), evaluate_(model_, scene)
     {
     }
 
@@ -119,12 +117,10 @@ class CellStarts {
 
 ProgramText stepping_program(const Generated& generated, const char* name)
 {
-    ProgramText text{
-        generated.header,
-        fmt::format("#include \"model.hpp\"\n#include \"lagen_chart/discrete_stability.hpp\"\nint "
-                    "main(int argc, char** argv)\n{{\n    return "
-                    "lagen::chart_discrete_stability<lagen::models::{}<double>>(\"{}\", argc, argv);\n}}\n",
-                    class_name(generated.module.name), name)};
+    ProgramText text{generated.header,
+                     main_text({"model.hpp", "lagen_chart/discrete_stability.hpp"},
+                               fmt::format("chart_discrete_stability<lagen::models::{}<double>>(\"{}\", argc, argv)",
+                                           class_name(generated.module.name), name))};
     text.options = rounding_options();
     return text;
 }
@@ -251,16 +247,8 @@ std::vector<MethodGroup> groups_of(const ChartProblem& problem, const std::vecto
 
 ProgramText program_of(const ChartProblem& problem, const MethodGroup& methods)
 {
-    std::string types, names;
-    for (const MethodEntry* method : methods) {
-        types += fmt::format(", lagen::{}", method->type);
-        names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", method->name);
-    }
-    ProgramText text{problem.header,
-                     fmt::format("#include \"model.hpp\"\n#include \"lagen_chart/stability.hpp\"\nint main(int argc, "
-                                 "char** argv)\n{{\n    return lagen::chart_stability<lagen::models::{}<double>{}>"
-                                 "({{{}}}, argc, argv);\n}}\n",
-                                 class_name(problem.module.name), types, names)};
+    ProgramText text{problem.header, main_text({"model.hpp", "lagen_chart/stability.hpp"},
+                                               call_of("chart_stability", problem.module, methods))};
     text.options = rounding_options();
     return text;
 }
@@ -269,7 +257,7 @@ ProgramText program_of(const ChartProblem& problem, const MethodGroup& methods)
 std::vector<chart::ColumnStart> column_starts(CheckedModel& checked, const Scene& scene, const StabilityChart& chart,
                                               ChartProblem& problem)
 {
-    StartState start([&](bool) -> const CheckedModel& { return checked; }, chart.form);
+    StartState start(checked, chart.form);
     SceneEvaluator evaluate(checked.model, scene);
     std::vector<chart::ColumnStart> starts;
     for (const ColumnPlace& place : column_places(chart.axes)) {
@@ -473,41 +461,6 @@ void chart_steps(CheckedModel& checked, const ChartRequest& request, const Scene
 constexpr std::uint64_t most_cells = 1'000'000;
 constexpr const char* initial_prefix = "initial.";
 
-[[noreturn]] void refuse_over(const std::string& text, const std::string& what)
-{
-    throw UsageError(fmt::format("--over {}: {}", text, what));
-}
-
-/// The name as the model has it.
-std::string name_in_model(const Setting& setting, const std::string& text, const Model& model, const Scene& scene)
-{
-    const std::optional<std::string> starts = initial_name(setting.name);
-    const std::string name = starts.value_or(setting.name);
-    const std::vector<Symbol> symbols = starts ? initial_symbols(model, scene) : free_parameters(model);
-    const std::optional<ResolvedKey> key = resolve_key(symbols, name);
-    if (key && key->shape.rank == Rank::scalar) return (starts ? initial_prefix : "") + key->name;
-    throw ModelError(starts ? fmt::format("scene '{}' has no single initial value '{}' to chart over", scene.name, name)
-                            : fmt::format("the model has no single parameter '{}' to chart over", name),
-                     whole_text("<--over>", text).range(0, setting.name.size()),
-                     hint_for_key(symbols, name, starts ? "initial values" : "parameters"));
-}
-
-StabilityAxis axis_from(const std::string& text, const Model& model)
-{
-    const Setting setting = read_setting("over", text);
-    const std::vector<Excerpt> parts = parts_of_range(setting.value);
-    if (parts.size() != 3) refuse_over(text, "a range is FIRST:LAST:COUNT");
-    GridAxis grid{end_of_range(model, "over", parts[0]), end_of_range(model, "over", parts[1]), 0};
-    const std::optional<std::uint64_t> count = read_whole(parts[2].text);
-    if (!count || *count == 0 || *count > most_cells)
-        refuse_over(text, fmt::format("the number of points is '{}', where a whole number from 1 to {} is required",
-                                      parts[2].text, most_cells));
-    grid.count = *count;
-    StabilityAxis axis{setting.name, {}};
-    for (std::uint64_t k = 0; k < grid.count; ++k) axis.values.push_back(grid.at(k));
-    return axis;
-}
-
 } // namespace
 
 StabilityChart make_stability_chart(CheckedModel& checked, const ChartRequest& request, std::vector<StabilityAxis> axes)
@@ -516,7 +469,7 @@ StabilityChart make_stability_chart(CheckedModel& checked, const ChartRequest& r
     chart.model = checked.model.name;
     chart.title = checked.model.title;
     chart.scene = request.scene.name;
-    chart.form = request.form;
+    chart.form = request.scene.form;
     chart.axes = std::move(axes);
     const Scene scene = stepped_scene(request.scene, chart.axes, checked.model);
     const SceneValues given = evaluate_scene(checked.model, request.scene);
@@ -535,16 +488,28 @@ std::vector<StabilityAxis> stability_axes(const std::string& over, const Model& 
         throw UsageError("--stability needs --over step=FIRST:LAST:COUNT, and behind a comma at most one range more, "
                          "of a parameter or of initial.NAME");
     std::vector<StabilityAxis> axes;
-    for (const std::string& text : texts) axes.push_back(axis_from(text, model));
+    std::vector<RangeText> ranges;
+    for (const std::string& text : texts) {
+        const Setting setting = read_setting("over", text);
+        const RangeText& range = ranges.emplace_back(range_of("over", setting.value, text));
+        if (range.parts.size() != 3) range.refuse("a range is FIRST:LAST:COUNT");
+        const GridAxis grid = axis_of(range, model, most_cells);
+        StabilityAxis& axis = axes.emplace_back(StabilityAxis{setting.name, {}});
+        for (std::uint64_t k = 0; k < grid.count; ++k) axis.values.push_back(grid.at(k));
+    }
     for (const double step : axes[0].values)
-        if (!(step > 0)) refuse_over(texts[0], fmt::format("a step of {} is not positive", step));
+        if (!(step > 0)) ranges[0].refuse(fmt::format("a step of {} is not positive", step));
     if (axes.size() == 1) return axes;
-    if (axes[1].values.size() * axes[0].values.size() > most_cells)
-        refuse_over(over, fmt::format("the chart has more than {} points", most_cells));
-    axes[1].name = name_in_model(read_setting("over", texts[1]), texts[1], model, scene);
-    const std::optional<std::string> starts = initial_name(axes[1].name);
-    axes[1].heading =
-        (starts ? initial_prefix : "") + plain_names({starts.value_or(axes[1].name)}, all_names(model))[0];
+    StabilityAxis& second = axes[1];
+    if (second.values.size() * axes[0].values.size() > most_cells)
+        throw UsageError(fmt::format("--over {}: the chart has more than {} points", over, most_cells));
+    const std::optional<std::string> starts = initial_name(second.name);
+    const std::string prefix = starts ? initial_prefix : "";
+    const SourceRange where = whole_text("<--over>", texts[1]).range(0, second.name.size());
+    const SweptName name =
+        resolved({starts ? "initial" : "set", starts.value_or(second.name)}, model, scene, "to chart over", where);
+    second.name = prefix + name.name;
+    second.heading = prefix + plain_names({name.name}, all_names(model))[0];
     return axes;
 }
 

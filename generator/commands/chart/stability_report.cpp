@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/chart/report.hpp"
 #include "commands/chart/stability_chart.hpp"
-#include "commands/scene/table.hpp"
 #include "machine/gnuplot.hpp"
+#include "scene/table.hpp"
 #include "text/record.hpp"
 
 #include <fmt/core.h>
@@ -261,20 +261,21 @@ std::string stability_text(const StabilityChart& chart)
     if (chart.axes.size() > 1)
         text += fmt::format(", {} {:.6g} to {:.6g}", chart.axes[1].name, chart.axes[1].values.front(),
                             chart.axes[1].values.back());
-    text +=
-        fmt::format("\nfollowed: {}\n\n{:<14}", chart.followed.empty() ? "the size of the state" : chart.followed, "");
-    for (const OutcomeEntry& outcome : outcome_table) text += fmt::format("{:>16}", outcome.name);
-    text += fmt::format("{:>16}{:>16}\n", "bounded up to", "least limit");
+    text += fmt::format("\nfollowed: {}\n\n", chart.followed.empty() ? "the size of the state" : chart.followed);
+    std::vector<std::vector<std::string>> rows{{""}};
+    for (const OutcomeEntry& outcome : outcome_table) rows[0].emplace_back(outcome.name);
+    rows[0].insert(rows[0].end(), {"bounded up to", "least limit"});
     for (const ChartedMethod& method : chart.methods) {
-        text += fmt::format("{:<14}", method.name);
+        std::vector<std::string>& row = rows.emplace_back(std::vector{method.name});
         for (const OutcomeEntry& outcome : outcome_table)
-            text += fmt::format("{:>16}", std::ranges::count(method.cells, outcome.name, &StabilityCell::outcome));
+            row.push_back(std::to_string(std::ranges::count(method.cells, outcome.name, &StabilityCell::outcome)));
         std::optional<double> least;
         for (const std::optional<double>& limit : method.limits)
             if (limit && (!least || *limit < *least)) least = limit;
-        text +=
-            fmt::format("{:>16.6g}{:>16}\n", bounded_up_to(chart, method), least ? fmt::format("{:.6g}", *least) : "-");
+        row.push_back(value_text(bounded_up_to(chart, method), ".6g"));
+        row.push_back(least ? value_text(*least, ".6g") : "-");
     }
+    text += in_columns(rows, "<>", "");
     if (!chart.left_out.empty()) text += "\n";
     for (const LeftOutMethod& method : chart.left_out) text += fmt::format("left out: {}\n", method.reason);
     return text;

@@ -3,8 +3,6 @@
 
 #include "emit/print_literal.hpp"
 #include "expression/parse.hpp"
-#include "graph/core/evaluate.hpp"
-#include "graph/core/lower.hpp"
 #include "machine/write_file.hpp"
 #include "model/families.hpp"
 #include "scene/read_input_table.hpp"
@@ -90,6 +88,28 @@ void require_parameters(const Model& model, const std::string& name, const Excer
                                  text.range(0, text.text.size()), "give numbers, or expressions of parameters");
 }
 
+/// "on", or "to 9".
+std::string up_to(std::uint64_t most)
+{
+    return most == UINT64_MAX ? "on" : fmt::format("to {}", most);
+}
+
+Rational end_of_range(const Model& model, const std::string& option, const Excerpt& text)
+{
+    const Tree tree = option_tree(model, option, text);
+    const SourceRange where = text.range(0, text.text.size());
+    if (!names_in(tree).empty())
+        throw ModelError(fmt::format("a range of --{} ends at an expression of '{}', where a number is required",
+                                     option, names_in(tree).front()),
+                         where);
+    const std::optional<Rational> exact = exact_value(tree);
+    const double value = exact ? nearest_double(*exact) : static_cast<double>(TreeValues()(tree, {}));
+    if (!std::isfinite(value))
+        throw ModelError(fmt::format("a range of --{} ends at {}, where a finite number is required", option, value),
+                         where);
+    return exact.value_or(Rational(value));
+}
+
 } // namespace
 
 Options::Options(const CommandSyntax& syntax, std::span<const std::string> arguments) : command_(syntax.command)
@@ -145,13 +165,6 @@ std::vector<std::string> Options::all(const std::string& name) const
 {
     const auto found = values_.find(name);
     return found == values_.end() ? std::vector<std::string>{} : found->second;
-}
-
-void Options::refuse(const std::string& name, const std::string& text, const SourceRange& where,
-                     const std::string& hint) const
-{
-    if (has(name)) throw UsageError(text, hint);
-    throw ModelError(text, where, hint);
 }
 
 std::string Options::choice(const std::string& name, const std::vector<std::string>& allowed) const
@@ -271,33 +284,33 @@ double GridAxis::at(std::uint64_t place) const
     return nearest_double(first + (last - first) * part);
 }
 
-Rational end_of_range(const Model& model, const std::string& option, const Excerpt& text)
+void RangeText::refuse(const std::string& what) const
 {
-    const Tree tree = option_tree(model, option, text);
-    const SourceRange where = text.range(0, text.text.size());
-    if (!names_in(tree).empty())
-        throw ModelError(fmt::format("a range of --{} ends at an expression of '{}', where a number is required",
-                                     option, names_in(tree).front()),
-                         where);
-    Graph graph;
-    const NodeId root = Lowering(graph)(tree);
-    const std::vector<Rational> exact = evaluate_exactly(graph, {&root, 1}, {});
-    const auto value =
-        exact.empty() ? static_cast<double>(evaluate<long double>(graph, {&root, 1}, {})[0]) : nearest_double(exact[0]);
-    if (!std::isfinite(value))
-        throw ModelError(fmt::format("a range of --{} ends at {}, where a finite number is required", option, value),
-                         where);
-    return exact.empty() ? Rational(value) : exact[0];
+    throw UsageError(fmt::format("--{} {}: {}", option, text, what));
 }
 
-std::vector<Excerpt> parts_of_range(const Excerpt& text)
+RangeText range_of(const std::string& option, const Excerpt& range, const std::string& text)
 {
-    std::vector<Excerpt> parts;
+    RangeText out{option, text, {}};
     for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
-        end = text.text.find(':', begin);
-        parts.push_back(trimmed(text, begin, std::min(end, text.text.size())));
+        end = range.text.find(':', begin);
+        out.parts.push_back(trimmed(range, begin, std::min(end, range.text.size())));
     }
-    return parts;
+    return out;
+}
+
+GridAxis axis_of(const RangeText& range, const Model& model, std::uint64_t most)
+{
+    GridAxis axis{end_of_range(model, range.option, range.parts[0]), end_of_range(model, range.option, range.parts[1]),
+                  0};
+    if (range.parts.size() < 3) return axis;
+    const std::string& text = range.parts[2].text;
+    const std::optional<std::uint64_t> count = read_whole(text);
+    if (!count || *count == 0 || *count > most)
+        range.refuse(
+            fmt::format("the number of points is '{}', where a whole number from 1 {} is required", text, up_to(most)));
+    axis.count = *count;
+    return axis;
 }
 
 std::optional<std::uint64_t> read_whole(const std::string& text)
@@ -315,7 +328,7 @@ std::uint64_t whole_option(const Options& options, const std::string& name, std:
     const std::optional<std::uint64_t> value = read_whole(options.get(name));
     if (value && *value >= least && *value <= most) return *value;
     throw UsageError(fmt::format("--{} is '{}', where a whole number from {} {} is required", name, options.get(name),
-                                 least, most == UINT64_MAX ? "on" : fmt::format("to {}", most)));
+                                 least, up_to(most)));
 }
 
 } // namespace lagen

@@ -4,7 +4,7 @@
 
 #include "model/model.hpp"
 #include "model/morphism.hpp"
-#include "text/diagnostic.hpp"
+#include "text/usage_error.hpp"
 
 #include <cstdint>
 #include <initializer_list>
@@ -16,16 +16,6 @@
 #include <vector>
 
 namespace lagen {
-
-/// The command line is wrong (exit code 4): a sentence without a full stop. `lagen` says before it which command was
-/// called.
-class UsageError : public Error {
-  public:
-    explicit UsageError(const std::string& text, const std::string& hint = {})
-        : Error(ExitCode::usage, with_hint(text, hint))
-    {
-    }
-};
 
 struct OptionEntry {
     const char* name;  ///< "output,o": long name and, after the comma, a letter
@@ -51,13 +41,11 @@ class Options {
     [[nodiscard]] bool has(const std::string& name) const { return values_.contains(name); }
     [[nodiscard]] std::string get(const std::string& name) const; ///< the last value, or the standard, or ""
     [[nodiscard]] std::vector<std::string> all(const std::string& name) const;
+    /// The file of --output; "-" without it.
+    [[nodiscard]] std::string output() const { return has("output") ? get("output") : "-"; }
     [[nodiscard]] const std::vector<std::string>& positional() const { return positional_; }
     /// Options and their values as they were given.
     [[nodiscard]] const std::vector<std::pair<std::string, std::string>>& given() const { return given_; }
-
-    /// Something is wrong: with the option --NAME where it was given, else with the model file there.
-    [[noreturn]] void refuse(const std::string& name, const std::string& text, const SourceRange& where,
-                             const std::string& hint = {}) const;
 
     /// The value of `name`, which must be one of `allowed`.
     [[nodiscard]] std::string choice(const std::string& name, const std::vector<std::string>& allowed) const;
@@ -107,6 +95,8 @@ inline constexpr OptionEntry t_end{
     "t-end", "T", "end of the run, backwards where it lies before the start; without it the scene's duration"};
 inline constexpr OptionEntry output{"output,o", "FILE", "write there instead of to standard output"};
 inline constexpr OptionEntry unchecked{"unchecked", nullptr, "go on although the model is refuted"};
+inline constexpr OptionEntry least{"least", nullptr, "run the least model that gives what the scene watches"};
+inline constexpr OptionEntry full{"full", nullptr, "run the whole model"};
 inline constexpr OptionEntry format{"format,f", "FORMAT", "text or json", "text"};
 } // namespace option
 
@@ -131,12 +121,19 @@ struct GridAxis {
     [[nodiscard]] double at(std::uint64_t place) const;
 };
 
-/// An end of a range of --OPTION: exactly where its expression is rational, else the nearest double. Throws ModelError
-/// where it is no finite number.
-[[nodiscard]] Rational end_of_range(const Model& model, const std::string& option, const Excerpt& text);
+/// FIRST:LAST:COUNT, or FIRST:LAST, of --OPTION: its parts, and the text as it was given.
+struct RangeText {
+    std::string option, text;
+    std::vector<Excerpt> parts; ///< between colons, blanks trimmed
 
-/// The parts between colons, blanks trimmed.
-[[nodiscard]] std::vector<Excerpt> parts_of_range(const Excerpt& text);
+    /// Throws UsageError.
+    [[noreturn]] void refuse(const std::string& what) const;
+};
+[[nodiscard]] RangeText range_of(const std::string& option, const Excerpt& range, const std::string& text);
+
+/// The ends are exact where their expressions are rational, else the nearest doubles. Throws ModelError where one is no
+/// finite number, UsageError where the count is none from 1 on, to `most`.
+[[nodiscard]] GridAxis axis_of(const RangeText& range, const Model& model, std::uint64_t most = UINT64_MAX);
 
 /// A whole number without a sign, at most 1e18; nothing where the text is none.
 [[nodiscard]] std::optional<std::uint64_t> read_whole(const std::string& text);

@@ -2,15 +2,16 @@
 #include "commands/plot/draw_scene.hpp"
 
 #include "commands/line/options.hpp"
+#include "commands/line/scene_options.hpp"
 #include "commands/plot/labels.hpp"
 #include "commands/plot/panel.hpp"
-#include "commands/scene/integrate_scene.hpp"
-#include "commands/scene/scene_options.hpp"
+#include "commands/report/run.hpp"
 #include "machine/gnuplot.hpp"
 #include "machine/process.hpp"
 #include "machine/write_file.hpp"
 #include "model/read_curve.hpp"
 #include "model/scene_form.hpp"
+#include "scene/integrate_scene.hpp"
 #include "text/comma_list.hpp"
 
 #include <fmt/core.h>
@@ -39,9 +40,8 @@ struct PlottedRun {
 /// Another scene of the same model, changed by the command line as the last one was.
 struct RunBeside {
     RunBeside(const Options& options, const CheckedModel& model, const Scene& scene)
-        : checked(model),
-          run(options, checked, scene, method_of(options, scene), options.has("at") && !options.has("t-end")),
-          outcome(run.integrate())
+        : checked(model), run(checked, scene, method_of(scene), options.has("at") && !options.has("t-end")),
+          outcome(run.integrate(second_run_of(options)))
     {
     }
     CheckedModel checked;
@@ -145,8 +145,8 @@ Columns columns_of_run(const PlottedRun& run, const std::vector<PlannedPanel>& p
     for (const PlannedPanel& panel : panels)
         for (const PlotCurve& curve : panel.curves)
             for (const NamedTree& coordinate : curve.coordinates)
-                if (coordinate.name != "t" && std::ranges::find(names, coordinate.name) == names.end())
-                    names.push_back(coordinate.name);
+                if (coordinate.name != "t") names.push_back(coordinate.name);
+    names = distinct(names);
     ProgramInput input = run.input;
     input.columns = columns_named(run.record.names, names);
     use_times(run, input);
@@ -279,8 +279,7 @@ std::string draw_scene(const Options& options, const SceneRun& run, const RunOut
     }
     const Model& model = run.checked().model;
     draw_panels(panels, model.title.empty() ? model.name : model.title, options.get("plot"));
-    return fmt::format("{} panel{}, {} curve{}", panels.size(), panels.size() == 1 ? "" : "s", curves,
-                       curves == 1 ? "" : "s");
+    return count_text(panels.size(), "panel") + ", " + count_text(curves, "curve");
 }
 
 std::vector<std::string> scenes_beside(const Options& options, const Model& model, const Scene& last)

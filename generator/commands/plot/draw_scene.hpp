@@ -2,7 +2,8 @@
 /// The picture of a scene: its [scene.NAME.plot], or else its columns over time.
 #pragma once
 
-#include "commands/scene/scene_run.hpp"
+#include "commands/line/options.hpp"
+#include "scene/scene_run.hpp"
 
 #include <string>
 #include <vector>

@@ -152,7 +152,7 @@ std::string characters_of_latex(const std::string& latex)
 
 Symbol symbol_of(const Model& model, const std::string& name)
 {
-    const std::vector<Symbol> states = state_symbols(model), inputs = input_symbols(model);
+    const std::vector<Symbol> states = symbols_of(model, Role::state), inputs = symbols_of(model, Role::input);
     std::vector<const std::vector<Symbol>*> lists{
         &model.base.coordinates, &model.fibre.coordinates, &model.fibre.momenta, &model.notes, &states, &inputs};
     if (model.control) lists.push_back(&model.control->controls);

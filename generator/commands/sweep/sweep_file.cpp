@@ -17,6 +17,7 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -138,6 +139,24 @@ std::string line_of(std::ifstream& file, const std::string& part, const std::str
     if (!std::getline(file, line) || !line.starts_with(begin) || !line.ends_with('\r'))
         throw UsageError(fmt::format("'{}' has no line that begins with '{}' where it must stand", part, begin));
     return line + '\n';
+}
+
+/// Gives the heading and the rows of the whole, whose parts are sorted, one after the other to `take`.
+void each_line(const std::vector<std::string>& parts, std::uint64_t rows,
+               const std::function<void(const std::string& line)>& take)
+{
+    std::vector<std::ifstream> files;
+    std::string heading;
+    for (const std::string& part : parts) {
+        files.emplace_back(part, std::ios::binary);
+        if (!files.back()) refuse_reading(part, errno);
+        heading = line_of(files.back(), part, heading.empty() ? "index," : heading.substr(0, heading.size() - 1));
+    }
+    take(heading);
+    for (std::uint64_t row = 0; row < rows; ++row) {
+        const std::size_t part = static_cast<std::size_t>(row % parts.size());
+        take(line_of(files[part], parts[part], std::to_string(row) + ","));
+    }
 }
 
 /// A file that is written under another name and gets its own at the end, when all of it is on the disk.
@@ -423,19 +442,9 @@ void merge_sweep(const std::vector<std::string>& parts, const std::string& path)
             throw UsageError(fmt::format("'{}' is a part, and cannot be --output as well", part));
     SweepIdentity whole;
     const std::vector<std::string> sorted = sorted_parts(parts, whole);
-    std::vector<std::ifstream> files;
-    std::string heading;
-    for (const std::string& part : sorted) {
-        files.emplace_back(part, std::ios::binary);
-        if (!files.back()) refuse_reading(part, errno);
-        heading = line_of(files.back(), part, heading.empty() ? "index," : heading.substr(0, heading.size() - 1));
-    }
+    each_line(sorted, whole.rows, [](const std::string&) {}); // nothing is written before all is read
     MergedFile merged(path);
-    merged.write(heading);
-    for (std::uint64_t row = 0; row < whole.rows; ++row) {
-        const std::size_t part = static_cast<std::size_t>(row % sorted.size());
-        merged.write(line_of(files[part], sorted[part], std::to_string(row) + ","));
-    }
+    each_line(sorted, whole.rows, [&](const std::string& line) { merged.write(line); });
     merged.complete();
     whole.shard = {};
     write_identity(path, whole);

@@ -97,7 +97,8 @@ void write_identity(const std::string& path, const SweepIdentity& identity);
 /// `file` under the name `partial` becomes `path`, with its content on the disk before its name; false with errno.
 [[nodiscard]] bool put_in_place(int file, const std::string& partial, const std::string& path);
 
-/// Puts the parts of a sweep together, in the order of rows. Throws UsageError where they are not all parts of one.
+/// Puts the parts of a sweep together, in the order of rows. Throws UsageError where they are not all parts of one, and
+/// leaves what was there before.
 void merge_sweep(const std::vector<std::string>& parts, const std::string& path);
 
 /// The file of a rank that its launcher started: FILE.0-of-4.

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/sweep/sweep_rows.hpp"
 
-#include "commands/scene/scene_options.hpp"
+#include "commands/line/scene_options.hpp"
 #include "emit/print_literal.hpp"
 #include "machine/philox.hpp"
 #include "model/families.hpp"
 #include "model/plain_names.hpp"
+#include "scene/csv_fields.hpp"
 #include "text/content_hash.hpp"
 
 #include <fmt/core.h>
@@ -23,11 +24,6 @@ namespace {
 
 constexpr std::uint64_t most_sweep_rows = 1'000'000'000'000'000;
 
-[[noreturn]] void refuse_range(const SweepRequest::Range& range, const std::string& what)
-{
-    throw UsageError(fmt::format("--{} {}: {}", range.name.option, range.text, what));
-}
-
 /// True where the value of a parameter follows from that of another one.
 bool follows_from(const Model& model, const Parameter& parameter, const std::string& name)
 {
@@ -38,36 +34,16 @@ bool follows_from(const Model& model, const Parameter& parameter, const std::str
 }
 
 /// The name as the model has it.
-SweptName resolved(const SweepRequest::Range& range, const Model& model, const Scene& scene)
+SweptName swept_name(const SweepRequest::Range& range, const Model& model, const Scene& scene)
 {
-    const auto& [option, name] = range.name;
     for (const Size& size : model.sizes)
-        if (option == "set" && size.name == name)
-            refuse_range(range, fmt::format("'{}' is a size, and each of its values makes another model", name));
+        if (range.option == "set" && size.name == range.name)
+            range.refuse(fmt::format("'{}' is a size, and each of its values makes another model", range.name));
     for (const Parameter& parameter : model.parameters)
-        if (option == "set" && parameter.bound && names_entry(name, parameter.symbol.name))
-            refuse_range(range, fmt::format("'{}' is bound", parameter.symbol.name));
-    const std::vector<Symbol> symbols = swept_symbols(option, model, scene);
-    const std::optional<ResolvedKey> key = resolve_key(symbols, name);
-    if (key && key->shape.rank == Rank::scalar) return {option, key->name};
-    const bool set = option == "set";
-    throw ModelError(set ? fmt::format("the model has no single parameter '{}' to sweep", name)
-                         : fmt::format("scene '{}' has no single initial value '{}' to sweep", scene.name, name),
-                     whole_text(fmt::format("<--{}>", option), range.text).range(0, name.size()),
-                     hint_for_key(symbols, name, set ? "parameters" : "initial values"));
-}
-
-GridAxis axis_of(const SweepRequest::Range& range, const Model& model)
-{
-    GridAxis axis{end_of_range(model, range.name.option, range.parts[0]),
-                  end_of_range(model, range.name.option, range.parts[1]), 0};
-    if (range.parts.size() < 3) return axis;
-    const std::optional<std::uint64_t> count = read_whole(range.parts[2].text);
-    if (!count || *count == 0)
-        refuse_range(range, fmt::format("the number of points is '{}', where a whole number from 1 on is required",
-                                        range.parts[2].text));
-    axis.count = *count;
-    return axis;
+        if (range.option == "set" && parameter.bound && names_entry(range.name, parameter.symbol.name))
+            range.refuse(fmt::format("'{}' is bound", parameter.symbol.name));
+    return resolved({range.option, range.name}, model, scene, "to sweep",
+                    whole_text(fmt::format("<--{}>", range.option), range.text).range(0, range.name.size()));
 }
 
 /// Points of a grid, the last axis fastest; the value of an axis is computed where it changes.
@@ -111,38 +87,6 @@ SweepRows random_rows(std::vector<SweptName> names, const std::vector<GridAxis>&
 }
 
 // The file of --ensemble: RFC 4180, read line by line, so that it may be larger than the memory.
-
-/// A field with the place of its text in its line.
-struct CsvField {
-    std::string text;
-    std::size_t begin = 0, end = 0;
-};
-
-/// The fields of a line, blanks and quotes around them taken away.
-std::vector<CsvField> csv_fields(const std::string& line)
-{
-    std::vector<CsvField> list;
-    for (std::size_t at = 0; at <= line.size(); ++at) {
-        CsvField field;
-        while (at < line.size() && line[at] == ' ') ++at;
-        field.begin = at;
-        if (at < line.size() && line[at] == '"') {
-            for (++at; at < line.size(); ++at) {
-                if (line[at] == '"' && (at + 1 == line.size() || line[++at] != '"')) break;
-                field.text += line[at];
-            }
-            at = std::min(line.find(',', at), line.size());
-            field.end = at;
-        } else {
-            at = std::min(line.find(',', at), line.size());
-            field.end = at;
-            while (field.end > field.begin && line[field.end - 1] == ' ') --field.end;
-            field.text = line.substr(field.begin, field.end - field.begin);
-        }
-        list.push_back(std::move(field));
-    }
-    return list;
-}
 
 /// Lines one after the other; their ends, a mark of UTF-8 at the beginning and empty lines are left out.
 class EnsembleFile {
@@ -212,9 +156,8 @@ std::vector<SweptName> headed_names(const EnsembleFile& file, const Model& model
                                          field.text, scene.name),
                              field.begin, field.end, nearest.empty() ? "" : fmt::format("did you mean '{}'?", nearest));
         }
-        for (const SweptName& before : names)
-            if (before.option == found.option && before.name == found.name)
-                file.refuse_line(fmt::format("the column '{}' stands there twice", field.text), field.begin, field.end);
+        if (std::ranges::find(names, found) != names.end())
+            file.refuse_line(fmt::format("the column '{}' stands there twice", field.text), field.begin, field.end);
         names.push_back(std::move(found));
     }
     return names;
@@ -245,11 +188,6 @@ std::vector<double> row_numbers(const EnsembleFile& file, const std::vector<Swep
 
 } // namespace
 
-std::vector<Symbol> swept_symbols(const std::string& option, const Model& model, const Scene& scene)
-{
-    return option == "set" ? free_parameters(model) : initial_symbols(model, scene);
-}
-
 void require_constants(const Model& model, const SweepRows& rows)
 {
     for (const Parameter& parameter : model.parameters)
@@ -267,14 +205,14 @@ SweepRequest::SweepRequest(const Options& options)
     for (const auto& [option, text] : options.given()) {
         if (option != "set" && option != "initial") continue;
         Setting setting = read_setting(option, text);
-        Range range{{option, setting.name}, parts_of_range(setting.value), text};
+        Range range{range_of(option, setting.value, text), setting.name};
         if (range.parts.size() == 1) {
             (option == "set" ? settings : initial).push_back(std::move(setting));
             continue;
         }
-        if (ensemble) refuse_range(range, "the values of an ensemble stand in its file");
+        if (ensemble) range.refuse("the values of an ensemble stand in its file");
         if (range.parts.size() != (random ? 2U : 3U))
-            refuse_range(range, random ? "with --random a range is FIRST:LAST" : "a range is FIRST:LAST:COUNT");
+            range.refuse(random ? "with --random a range is FIRST:LAST" : "a range is FIRST:LAST:COUNT");
         ranges.push_back(std::move(range));
     }
     options.add_bindings(settings);
@@ -289,9 +227,8 @@ SweepRows sweep_rows(const Options& options, const SweepRequest& request, const 
     std::vector<SweptName> names;
     std::vector<GridAxis> axes;
     for (const SweepRequest::Range& range : request.ranges) {
-        const SweptName name = resolved(range, model, scene);
-        for (const SweptName& before : names)
-            if (before.option == name.option && before.name == name.name) refuse_range(range, "it is swept twice");
+        const SweptName name = swept_name(range, model, scene);
+        if (std::ranges::find(names, name) != names.end()) range.refuse("it is swept twice");
         names.push_back(name);
         axes.push_back(axis_of(range, model));
     }
@@ -299,7 +236,7 @@ SweepRows sweep_rows(const Options& options, const SweepRequest& request, const 
                                                          options.has("seed") ? whole_option(options, "seed", 0) : 0)
                                            : grid_rows(std::move(names), std::move(axes));
     for (const SweepRequest::Range& range : request.ranges)
-        rows.text += fmt::format("\n{} {}", range.name.option, range.text);
+        rows.text += fmt::format("\n{} {}", range.option, range.text);
     rows.text += fmt::format("\n{} rows", rows.count);
     return rows;
 }

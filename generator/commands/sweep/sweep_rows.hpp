@@ -2,18 +2,12 @@
 /// Which trajectories a sweep consists of: a grid, random draws, or the rows of a file.
 #pragma once
 
-#include "commands/line/options.hpp"
+#include "commands/line/scene_options.hpp"
 
 #include <cstdint>
 #include <functional>
 
 namespace lagen {
-
-/// A parameter (`set.a`) or an initial value (`initial.x`) that changes from row to row.
-struct SweptName {
-    std::string option; ///< "set" or "initial"
-    std::string name;
-};
 
 struct SweepRows {
     std::vector<SweptName> names;
@@ -25,10 +19,8 @@ struct SweepRows {
 
 /// --set and --initial of a sweep: those that keep one value, and ranges FIRST:LAST:COUNT or FIRST:LAST.
 struct SweepRequest {
-    struct Range {
-        SweptName name;
-        std::vector<Excerpt> parts;
-        std::string text; ///< as it was given
+    struct Range : RangeText {
+        std::string name;
     };
     std::vector<Setting> settings, initial;
     std::vector<Range> ranges; ///< in the order of the command line
@@ -49,8 +41,5 @@ struct SweepRequest {
 
 /// Throws UsageError where the value of a bound parameter follows from one that is swept.
 void require_constants(const Model& model, const SweepRows& rows);
-
-/// The symbols that `option` names: parameters, or what the scene starts from.
-[[nodiscard]] std::vector<Symbol> swept_symbols(const std::string& option, const Model& model, const Scene& scene);
 
 } // namespace lagen

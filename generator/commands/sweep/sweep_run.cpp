@@ -3,7 +3,7 @@
 /// has the same bits.
 #include "commands/sweep/sweep_run.hpp"
 
-#include "commands/scene/run_report.hpp"
+#include "commands/report/run.hpp"
 #include "commands/sweep/sweep_rows.hpp"
 #include "lagen_run/archive.hpp"
 #include "machine/write_file.hpp"
@@ -18,7 +18,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <optional>
-#include <unistd.h>
 #include <utility>
 
 namespace lagen {
@@ -42,18 +41,6 @@ void append_doubles(std::string& bytes, const std::vector<long double>& values)
         std::memcpy(raw, &number, sizeof number);
         bytes.append(raw, sizeof raw);
     }
-}
-
-using Milliseconds = std::chrono::milliseconds;
-
-Milliseconds first_pause(bool terminal)
-{
-    return Milliseconds(terminal ? 500 : 60'000);
-}
-
-Milliseconds next_pause(bool terminal)
-{
-    return Milliseconds(terminal ? 200 : 60'000);
 }
 
 } // namespace
@@ -85,9 +72,8 @@ std::string sweep_heading(const SweepSetting& setting, const SweepRows& rows)
 
 SweepRun::SweepRun(const SweepSetting& setting, const SweepRows& rows, const Shard& shard, StartState start,
                    SweepFile& file)
-    : setting_(setting), rows_(rows), shard_(shard), start_(std::move(start)), file_(file),
-      progress_(file.rows(), shard.size(rows.count)), evaluate_(setting.model, setting.scene),
-      next_(shard.index + file.rows() * shard.count)
+    : setting_(setting), rows_(rows), shard_(shard), start_(std::move(start)), file_(file), first_rows_(file.rows()),
+      evaluate_(setting.model, setting.scene), next_(shard.index + file.rows() * shard.count)
 {
     input_.columns = columns_of(setting_.record.names, setting_.scene);
     input_.events = &setting_.scene.events;
@@ -197,10 +183,20 @@ void SweepRun::take(const char* bytes, std::size_t count)
     }
     unfinished_.erase(0, begin);
     file_.append(lines);
+    if (file_.rows() > first_rows_) progress_.show([this] { return progress(); });
+}
+
+std::string SweepRun::progress() const
+{
     std::uint64_t failed = 0;
     for (const auto& [status, rows] : file_.statuses())
         if (!succeeded(status)) failed += rows;
-    progress_.show(file_.rows(), failed);
+    const std::uint64_t done = file_.rows(), all = shard_.size(rows_.count);
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begun_;
+    const double left = passed.count() * static_cast<double>(all - done) / static_cast<double>(done - first_rows_);
+    return fmt::format("{:3.0f} %  {} of {} rows{}, {} left",
+                       100 * static_cast<double>(done) / static_cast<double>(all), done, all,
+                       failed == 0 ? "" : fmt::format(", {} failed", failed), duration_text(left));
 }
 
 void SweepRun::run()
@@ -232,31 +228,6 @@ std::string duration_text(double seconds)
     if (whole < hour) return two(minute, "min", 1, "s");
     if (whole < day) return two(hour, "h", minute, "min");
     return two(day, "d", hour, "h");
-}
-
-SweepProgress::SweepProgress(std::uint64_t done, std::uint64_t rows)
-    : first_(done), rows_(rows), terminal_(::isatty(STDERR_FILENO) != 0), next_(start_ + first_pause(terminal_))
-{
-}
-
-void SweepProgress::show(std::uint64_t done, std::uint64_t failed)
-{
-    const Clock::time_point now = Clock::now();
-    if (now < next_ || done == first_) return;
-    next_ = now + next_pause(terminal_);
-    const std::chrono::duration<double> passed = now - start_;
-    const double left = passed.count() * static_cast<double>(rows_ - done) / static_cast<double>(done - first_);
-    const std::string text =
-        fmt::format("{:3.0f} %  {} of {} rows{}, {} left", 100 * static_cast<double>(done) / static_cast<double>(rows_),
-                    done, rows_, failed == 0 ? "" : fmt::format(", {} failed", failed), duration_text(left));
-    write_standard_error(terminal_ ? fmt::format("\r{:<76}", text) : text + '\n');
-    shown_ = terminal_;
-}
-
-void SweepProgress::clear()
-{
-    if (shown_) write_standard_error(fmt::format("\r{:76}\r", ""));
-    shown_ = false;
 }
 
 } // namespace lagen

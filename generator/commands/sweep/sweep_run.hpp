@@ -2,10 +2,11 @@
 /// The rows of a sweep on their way through its program: starts in, finished lines out.
 #pragma once
 
-#include "commands/scene/run_record.hpp"
 #include "commands/sweep/sweep_file.hpp"
 #include "commands/sweep/sweep_rows.hpp"
 #include "lagen_run/job.hpp"
+#include "machine/progress_line.hpp"
+#include "scene/run_record.hpp"
 
 #include <chrono>
 #include <cstdint>
@@ -15,27 +16,8 @@
 
 namespace lagen {
 
-// How far a sweep is and how long it will take, on standard error: a line that is rewritten on a terminal, else a line
-// every minute.
-
 /// "3 s", "4 min 10 s", "5 h 2 min", "3 d 4 h".
 [[nodiscard]] std::string duration_text(double seconds);
-
-class SweepProgress {
-  public:
-    /// `done` of `rows` rows are there.
-    SweepProgress(std::uint64_t done, std::uint64_t rows);
-    void show(std::uint64_t done, std::uint64_t failed);
-    /// Wipes the line.
-    void clear();
-
-  private:
-    using Clock = std::chrono::steady_clock;
-    std::uint64_t first_, rows_;
-    bool terminal_;
-    bool shown_ = false;
-    Clock::time_point start_ = Clock::now(), next_;
-};
 
 /// What does not change from row to row.
 struct SweepSetting {
@@ -71,6 +53,7 @@ class SweepRun {
     [[nodiscard]] detail::SweepJob job() const;
     std::string next_starts();
     void append_start(std::string& bytes, std::uint64_t index);
+    [[nodiscard]] std::string progress() const;
     std::string start_of(const std::vector<std::string>& texts);
     [[nodiscard]] const std::string& failed_status(const std::string& number) const;
     void take(const char* bytes, std::size_t count);
@@ -81,7 +64,9 @@ class SweepRun {
     Shard shard_;
     StartState start_;
     SweepFile& file_;
-    SweepProgress progress_;
+    std::uint64_t first_rows_; ///< that were there before
+    std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
+    ProgressLine progress_{std::chrono::minutes(1)};
     SceneEvaluator evaluate_;
     ProgramInput input_;
     Values parameters_, initial_;

@@ -5,6 +5,7 @@
 #include "expression/fold.hpp"
 #include "graph/core/graph.hpp"
 
+#include <functional>
 #include <map>
 
 namespace lagen {
@@ -27,5 +28,9 @@ class Lowering {
 
 /// A node as a tree (shared nodes become shared trees). Solve components are refused (InternalError).
 [[nodiscard]] Tree to_tree(const Graph& graph, NodeId id);
+
+/// The same of several nodes, operands before their users: `put` answers what stands for a node with this tree.
+[[nodiscard]] std::vector<Tree> to_trees(const Graph& graph, std::span<const NodeId> roots,
+                                         const std::function<Tree(NodeId, Tree)>& put);
 
 } // namespace lagen

@@ -59,19 +59,27 @@ Tree component_tree(const Graph& graph, NodeId id, const std::vector<Tree>& tree
 Tree to_tree(const Graph& graph, NodeId id)
 {
     const NodeId roots[] = {id};
-    std::vector<Tree> trees(std::size_t{id} + 1);
+    return to_trees(graph, roots, [](NodeId, Tree tree) { return tree; })[0];
+}
+
+std::vector<Tree> to_trees(const Graph& graph, std::span<const NodeId> roots,
+                           const std::function<Tree(NodeId, Tree)>& put)
+{
+    std::vector<Tree> trees(graph.size());
     for (const NodeId node : reachable(graph, roots)) {
         const Op op = graph.op(node);
         if (op == Op::factor || op == Op::solve) continue; // their components read the entries themselves
         if (op == Op::component) {
-            trees[node] = component_tree(graph, node, trees);
+            trees[node] = put(node, component_tree(graph, node, trees));
             continue;
         }
         std::vector<Tree> operands;
         for (const NodeId operand : graph.operands(node)) operands.push_back(trees[operand]);
-        trees[node] = combine(graph, node, std::move(operands));
+        trees[node] = put(node, combine(graph, node, std::move(operands)));
     }
-    return trees[id];
+    std::vector<Tree> result;
+    for (const NodeId root : roots) result.push_back(trees[root]);
+    return result;
 }
 
 } // namespace lagen
