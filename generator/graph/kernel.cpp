@@ -59,7 +59,8 @@ std::pair<std::vector<Quantity>, std::vector<Quantity>> halves(const KernelModul
 SecondOrder second_order_of(const KernelModule& module, const std::vector<NodeId>& rates)
 {
     using Kind = SecondOrder::Kind;
-    const auto [x, v] = halves(module);
+    const auto both = halves(module);
+    const std::vector<Quantity>&x = both.first, &v = both.second;
     if (const auto obstacle = further_lanes(module)) return {Kind::no, *obstacle};
     if (x.size() != v.size() || x.empty())
         return {Kind::no,
@@ -83,7 +84,8 @@ SecondOrder second_order_of(const KernelModule& module, const std::vector<NodeId
 Separation separation_of(const KernelModule& module)
 {
     using Kind = Separation::Kind;
-    const auto [x, y] = halves(module);
+    const auto both = halves(module);
+    const std::vector<Quantity>&x = both.first, &y = both.second;
     if (const auto obstacle = further_lanes(module)) return {Kind::no, *obstacle};
     if (x.empty()) return {Kind::no, "there are no base coordinates x"};
     const auto depends = [&module](NodeId node, NodeId input) {
