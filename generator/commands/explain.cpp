@@ -34,7 +34,7 @@ ExitCode run_explain(Arguments arguments)
         load(model_path(options.positional()[0]), options.settings(), options.has("unchecked"));
     require_apart(options, checked.model);
     const Scene scene = scene_of(options, checked.model, options.named("initial"));
-    require_curve(scene, "least models are made");
+    require_least(checked.model, scene);
     warn(warnings_of(checked, scene.form));
     const LeastScene least = least_scene(checked, scene, options.has("output"));
     if (options.has("output")) {

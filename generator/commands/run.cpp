@@ -146,7 +146,11 @@ std::optional<LeastNote> put_least(const Options& options, CheckedModel& checked
     if (!options.has("least")) return {};
     for (const char* other : {"variations", "jacobi-field", "reconstruct", "branch", "plot"})
         if (options.has(other)) throw UsageError(fmt::format("--least leaves out what --{} is about", other), "--full");
-    require_curve(scene, "least models are made");
+    require_least(checked.model, scene);
+    if (scene.input_table) {
+        write_standard_error("  the whole model runs: a table gives its inputs\n");
+        return {};
+    }
     prove(checked);
     const LeastScene least = least_scene(checked, scene, true);
     if (least.least == least.full || !least.unwritten.empty()) {

@@ -127,6 +127,7 @@ bool lump_lanes(Reduction& reduction)
     if (!projected || !next.replace(others, false)) return false;
     next.system.lanes = lanes;
     next.system.rates = next.written = *projected;
+    next.definitions.clear();
     next.system.start = starts;
     for (std::size_t k = 0; k < rows.size(); ++k)
         if (std::ranges::find(added, lanes[k]) != added.end())

@@ -31,7 +31,8 @@ class ShortMotion {
     {
         for (const auto& [parameter, value] : system_.values)
             inputs_[graph_.input_name(parameter)] = evaluate<long double>(graph_, std::vector{value}, {})[0];
-        inputs_[graph_.input_name(system_.time)] = 0;
+        if (system_.start_time) start_ = evaluate<long double>(graph_, std::vector{*system_.start_time}, inputs_)[0];
+        inputs_[graph_.input_name(system_.time)] = start_;
     }
 
     /// States one after another; empty where a number is not finite, or an input is not known.
@@ -60,7 +61,7 @@ class ShortMotion {
     [[nodiscard]] Numbers rates_at(const Numbers& s, long double t)
     {
         for (std::size_t i = 0; i < s.size(); ++i) inputs_[graph_.input_name(system_.lanes[i])] = s[i];
-        inputs_[graph_.input_name(system_.time)] = t;
+        inputs_[graph_.input_name(system_.time)] = start_ + t;
         return evaluate<long double>(graph_, system_.rates, inputs_);
     }
 
@@ -83,6 +84,7 @@ class ShortMotion {
     const Graph& graph_;
     const LaneSystem& system_;
     NamedNumbers inputs_;
+    long double start_ = 0; ///< time of the start
 };
 
 /// The ties that a short motion keeps, to rounding.

@@ -17,6 +17,7 @@ namespace lagen {
 struct LaneSystem {
     std::shared_ptr<Graph> graph;
     NodeId time = 0;
+    std::optional<NodeId> start_time = {};    ///< over parameters; nothing: 0
     std::vector<NodeId> lanes;                ///< inputs, the entries of the state
     std::vector<NodeId> rates;                ///< of each
     std::vector<std::optional<NodeId>> start; ///< of each, over parameters; nothing where it is no closed expression

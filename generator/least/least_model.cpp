@@ -30,6 +30,7 @@ class LaneSystemMaker {
     {
         out_.graph = graph_;
         out_.time = system_.time;
+        if (scene_.start) out_.start_time = lower_(scene_.start);
         out_.lanes = state_of(form_);
         out_.rates = form_.derivative;
         if (!form_.implicit.empty()) out_.obstacle = "the rates rest on equations that are solved step by step";
@@ -60,12 +61,14 @@ class LaneSystemMaker {
         return found == values.end() ? nullptr : found->value;
     }
 
-    /// Values that rest on other parameters are put together.
+    /// As the scene or the file writes them; values that rest on other parameters are put together.
     void set_values()
     {
-        for (const auto& [parameter, value] : system_.parameter_values) {
-            const Tree tree = given(scene_.parameters, graph_->input_name(parameter));
-            out_.values.emplace_back(parameter, tree == nullptr ? value : lower_(tree));
+        for (const Parameter& parameter : model_.parameters) {
+            if (parameter.bound) continue;
+            const Tree tree = given(scene_.parameters, parameter.symbol.name);
+            out_.values.emplace_back(graph_->input(parameter.symbol.name),
+                                     lower_(tree == nullptr ? parameter.value : tree));
         }
         for (std::size_t round = 0; round < out_.values.size(); ++round) {
             std::vector<NodeId> values;
@@ -111,6 +114,7 @@ class LaneSystemMaker {
             if (tree == nullptr && !scene_.rest) return;
             at.emplace_back(y, tree == nullptr ? graph_->constant(0) : lower_(tree));
         }
+        at.emplace_back(system_.time, out_.start_time.value_or(graph_->constant(0)));
         const std::vector<NodeId> momenta = substitute(*graph_, lagrangian.fibre.momenta, at);
         for (std::size_t a = 0; a < momenta.size(); ++a) start[form_.x.size() + a] = momenta[a];
     }
@@ -175,6 +179,9 @@ LaneSystem lane_system(const Model& model, const System& system, const Report& r
 LeastModel least_model(LaneSystem system)
 {
     Graph& graph = *system.graph;
+    std::erase_if(system.candidates, [&](const NamedNode& candidate) {
+        return may_jump(graph, {candidate.node}, system.lanes); // its rate does not tell
+    });
     LeastModel least{system, Reduction(system), {}, {}, {}};
     if (system.obstacle.empty())
         for (bool smaller = true; smaller;) {

@@ -116,6 +116,9 @@ class OwnEquation {
         h_ = system().watched[0].node;
         h_symbol_ = graph_.input("watched function");
         if (!depends_on_any(graph_, std::vector{h_}, system().lanes)) return false;
+        std::vector<NodeId> smooth = system().rates; // h'' tells nothing of kinks and jumps
+        smooth.push_back(h_);
+        if (has_branch(graph_, smooth, system().lanes)) return false;
         return system().lanes.size() > 2 || (system().lanes.size() == 2 && has_pole());
     }
 
@@ -254,17 +257,52 @@ class OwnEquation {
         return substitute_where_defined(graph_, nodes, at);
     }
 
-    /// f > 0 as g(h) > 0 where f = g(h), or f^2 = g(h): f does not vanish before g does.
+    /// True where h never comes to a zero of g, a polynomial of degree 2 at most: h'^2 = P(h), and P is certainly
+    /// negative there, for the constants of the start. (Where f crosses 0, f^2 touches it alone, which nobody would
+    /// see.)
+    bool is_out_of_reach(NodeId g)
+    {
+        const std::optional<NodeId> P = in_h(graph_.power(first_, 2));
+        if (!P) return false;
+        NamedNumbers numbers = numbers_of({});
+        for (const Constant& constant : constants_) {
+            const auto start = reduction_.at_start(constant.function);
+            if (!start) return false;
+            numbers[graph_.input_name(constant.symbol)] =
+                evaluate<long double>(graph_, std::vector{*start}, numbers)[0];
+        }
+        const auto at = [&](NodeId node, long double h) {
+            numbers[graph_.input_name(h_symbol_)] = h;
+            return evaluate<long double>(graph_, std::vector{node}, numbers)[0];
+        };
+        const long double c = at(g, 0), a = (at(g, 1) + at(g, -1)) / 2 - c, b = (at(g, 1) - at(g, -1)) / 2;
+        const long double size = std::abs(a) + std::abs(b) + std::abs(c), d = b * b - 4 * a * c;
+        if (!(std::abs(at(g, 2) - (4 * a + 2 * b + c)) <= 1e-15L * size) || d < 0) return d < -1e-15L * size * size;
+        std::vector<long double> roots;
+        if (std::abs(a) <= 1e-15L * size) {
+            if (std::abs(b) <= 1e-15L * size) return false;
+            roots = {-c / b};
+        } else {
+            roots = {(-b + std::sqrt(d)) / (2 * a), (-b - std::sqrt(d)) / (2 * a)};
+        }
+        return std::ranges::all_of(roots, [&](long double root) {
+            const long double terms = std::max({std::abs(at(*P, root / 2)), std::abs(at(*P, 0)), 1.0L});
+            return at(*P, root) < -1e-14L * terms;
+        });
+    }
+
+    /// f > 0 as g(h) > 0 where f = g(h), or f^2 = g(h) that h does not come to a zero of.
     bool move_wall(NodeId wall)
     {
+        bool is_square = false;
         const Op op = graph_.op(wall);
         const NodeId a = graph_.operands(wall)[0], b = graph_.operands(wall)[1];
         const bool less = op == Op::less || op == Op::less_equal;
         const NodeId f = less ? graph_.subtract(b, a) : graph_.subtract(a, b);
         if (!depends_on_any(graph_, std::vector{f}, system().lanes)) return walls_.push_back(wall), true;
         std::optional<NodeId> g = op == Op::not_equal ? std::nullopt : in_h(f);
-        if (!g) g = in_h(graph_.power(f, 2));
-        if (!g) return false;
+        if (!g) g = in_h(graph_.power(f, 2)), is_square = true;
+        if (!g || (is_square && !is_out_of_reach(*g))) return false;
         walls_.push_back(graph_.apply(Op::greater, *g, graph_.constant(0)));
         return true;
     }

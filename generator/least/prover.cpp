@@ -56,6 +56,29 @@ bool has_branches(Op op)
 
 } // namespace
 
+bool may_jump(const Graph& graph, const std::vector<NodeId>& nodes, const std::vector<NodeId>& lanes)
+{
+    const std::vector<bool> moves = depends_on(graph, lanes);
+    bool has_kinks = false, divides = false;
+    for (const NodeId node : reachable(graph, nodes)) {
+        if (!moves[node]) continue;
+        const Op op = graph.op(node);
+        const bool is_inverse = op == Op::power && static_cast<std::int32_t>(graph.payload(node)) < 0;
+        if (is_inverse || (op == Op::divide && moves[graph.operands(node)[1]])) divides = true;
+        if (!has_branches(op)) continue;
+        if (op != Op::abs && op != Op::minimum && op != Op::maximum && op != Op::sqrt) return true;
+        has_kinks = true;
+    }
+    return has_kinks && divides;
+}
+
+bool has_branch(const Graph& graph, const std::vector<NodeId>& nodes, const std::vector<NodeId>& lanes)
+{
+    const std::vector<bool> moves = depends_on(graph, lanes);
+    return std::ranges::any_of(reachable(graph, nodes),
+                               [&](NodeId node) { return moves[node] && has_branches(graph.op(node)); });
+}
+
 Prover::Prover(Graph& graph, ProofSetting setting, Replacements values)
     : graph_(&graph), setting_(std::move(setting)), values_(std::move(values))
 {

@@ -13,6 +13,14 @@
 
 namespace lagen {
 
+/// True where one of `nodes` may jump along a motion of the lanes though its derivative does not tell: it has an
+/// operation of several branches, and that is no modulus, minimum, maximum or root, or something that moves is divided
+/// by.
+[[nodiscard]] bool may_jump(const Graph& graph, const std::vector<NodeId>& nodes, const std::vector<NodeId>& lanes);
+
+/// True where one of `nodes` has an operation of several branches on the lanes.
+[[nodiscard]] bool has_branch(const Graph& graph, const std::vector<NodeId>& nodes, const std::vector<NodeId>& lanes);
+
 class Prover {
   public:
     /// Keeps a reference to `graph`; copies are independent. `values`: of the parameters, in the scene; those that are

@@ -27,7 +27,7 @@ Reduction::Reduction(LaneSystem given)
 
 std::optional<NodeId> Reduction::at_start(NodeId function) const
 {
-    Replacements start;
+    Replacements start{{system.time, system.start_time.value_or(graph().constant(0))}};
     for (std::size_t i = 0; i < system.lanes.size(); ++i)
         if (system.start[i]) start.emplace_back(system.lanes[i], *system.start[i]);
     for (const StartConstant& constant : constants)

@@ -105,7 +105,9 @@ bool leave_out_unwatched(Reduction& reduction)
         if (closure.kept[i]) continue;
         const NodeId lane = reduction.system.lanes[i];
         const std::optional<NodeId> value = stand_in(reduction, i);
-        if (!value || !next.replace({{lane, *value}}, false)) continue;
+        const auto& start = reduction.system.start[i];
+        if (!value || (!next.replace({{lane, *value}}, false) && !(start && next.replace({{lane, *start}}, false))))
+            return false; // the others may depend on it
         next.left_out.push_back(lane);
         next.steps.push_back({.rule = "watched", .lane = reduction.name_of(lane), .relations = closure.relations});
     }

@@ -114,7 +114,8 @@ constexpr SchemaRow rows[] = {
     row("definitions.*", expression, "an expression", "the definition '{0}'"),
     row("rates", table, "the rates of a system of first order, one a base coordinate")
         .like("[rates] x = \"..\", one a base coordinate"),
-    row("rates.*", expression, "the time derivative of a base coordinate", "the rate of '{0}'", drifting),
+    row("rates.*", expression, "the time derivative of a base coordinate", "the rate of '{0}'", drifting)
+        .any_function(),
     row("lagrangian", table, "the Lagrangian").needing("L"),
     row("lagrangian.L", expression, "a function on E", "the Lagrangian", velocity).like("[lagrangian] L = \"..\""),
     row("hamiltonian", table, "the Hamiltonian").needing("H"),

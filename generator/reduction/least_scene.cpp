@@ -290,7 +290,10 @@ class LeastWriter {
             toml_string(fmt::format("{}, what scene {} watches", model_.title.empty() ? model_.name : model_.title,
                                     scene_.name)));
         TomlValue& parameters = entry_in(file, "parameters");
-        for (const auto& [parameter, value] : least_.full.values) put(parameters, names_[parameter], text_of(value));
+        const std::vector<NodeId>& bound = reduction_.prover.bound(); // the relations: no parameters any more
+        const auto is_bound = [&](NodeId parameter) { return std::ranges::find(bound, parameter) != bound.end(); };
+        for (const auto& [parameter, value] : least_.full.values)
+            if (!is_bound(parameter)) put(parameters, names_[parameter], text_of(value));
         for (const StartConstant& constant : reduction_.constants)
             put(parameters, names_[constant.input], text_of(*constant.value));
         TomlValue& base = entry_in(file, "base");
@@ -304,6 +307,8 @@ class LeastWriter {
         for (const Tree& wall : found.walls) domain.push_back(lagen::to_text(wall));
         if (!domain.empty()) put(base, "domain", toml_list(domain));
         put(entry_in(file, "algebroid"), "kind", toml_string("first_order"));
+        for (const auto& [parameter, value] : least_.full.values)
+            if (is_bound(parameter)) put(entry_in(file, "definitions"), names_[parameter], text_of(value));
         for (const WhereEntry& each : found.definitions)
             put(entry_in(file, "definitions"), each.symbol, text_of(each.value));
         name_columns(file, found);
@@ -328,9 +333,13 @@ class LeastWriter {
         for (std::size_t k = 0; k < all.size(); ++k) {
             std::string text = lagen::to_text(found.watched[k]);
             if (std::ranges::find(observed_, text) != observed_.end()) {
-                const std::string word = plain_name(all[k].name);
-                const std::string name =
-                    is_identifier(word) && !names_.is_taken(word) ? word : fmt::format("column{}", k + 1);
+                const auto is_free = [&](const std::string& word) {
+                    return is_identifier(word) && !names_.is_taken(word) &&
+                           std::ranges::find(observed_, word) == observed_.end() &&
+                           std::ranges::find(found.definitions, word, &WhereEntry::symbol) == found.definitions.end();
+                };
+                std::string name = plain_name(all[k].name);
+                for (std::size_t number = k + 1; !is_free(name); ++number) name = fmt::format("column{}", number);
                 put(entry_in(file, "definitions"), name, toml_string(text));
                 text = name;
             }

@@ -209,6 +209,13 @@ TEST_CASE("a watched function may have an equation of its own")
     CHECK(least.reduction.prover.bound().empty());
     CHECK(least.reduction.system.lanes.size() == 2);
     CHECK(least.rank.rank == 2);
+    // Its second derivative knows nothing of the kinks of max(x, 0).
+    const Texts lanes{"x", "y", "z"}, rates{"y*z", "-x*z", "x*y"}, start{"7/10", "-2/5", "9/10"};
+    for (const auto& [watched, count] : {std::pair<std::string, std::size_t>{"x", 2}, {"max(x, 0)", 3}}) {
+        Motion body(lanes, rates, start, {watched});
+        body.perhaps_conserved("x^2 + y^2").perhaps_conserved("z^2 - x^2");
+        CHECK(body.kept().size() == count);
+    }
 }
 
 TEST_CASE("a rank that is certified says that no smooth reduction has fewer states")

@@ -8,6 +8,7 @@
 #include "model/families.hpp"
 #include "model/read_curve.hpp"
 #include "model/scene_form.hpp"
+#include "scene/evaluate_scene.hpp"
 
 #include <fmt/core.h>
 
@@ -194,6 +195,16 @@ void require_curve(const Scene& scene, const char* what)
     if (!form_named(scene.form).steps) return;
     throw UsageError(fmt::format("{} of curves, and scene '{}' is a discrete motion", what, scene.name),
                      "--form lagrange, where the model has [lagrangian]");
+}
+
+void require_least(const Model& model, const Scene& scene)
+{
+    require_curve(scene, "least models are made");
+    if (is_form(scene.form, FormKind::pontryagin))
+        throw UsageError(fmt::format("least models are made of motions whose controls are given, and those of scene "
+                                     "'{}' are searched for",
+                                     scene.name));
+    (void)evaluate_scene(model, scene);
 }
 
 void require_no_jumps(const Scene& scene, const char* what)

@@ -46,6 +46,8 @@ void set_initial(const Model& model, Scene& scene, const Setting& setting);
 
 /// Throws where the form of the scene is a motion from step to step: `what` is made of curves.
 void require_curve(const Scene& scene, const char* what);
+/// The same where there is no least model of the scene: a control is searched for. Throws as evaluate_scene does.
+void require_least(const Model& model, const Scene& scene);
 /// The same where an event of the scene jumps.
 void require_no_jumps(const Scene& scene, const char* what);
 
