@@ -306,7 +306,7 @@ class LongLagrange {
         return definitions;
     }
 
-    /// What `write_` makes of a function; no group where that is 0.
+    /// The group of terms that `write_` makes of a function; none where that is 0.
     [[nodiscard]] std::vector<TermGroup> group(const std::string& label, NodeId node, bool negative = false)
     {
         const Tree value = graph_.is_zero(node) ? number(0) : write_(negative ? graph_.negate(node) : node);

@@ -50,9 +50,7 @@ CertifiedRank certified_rank(Reduction& reduction)
     const std::size_t n = system.lanes.size();
     const std::optional<NamedPoint> point = reduction.prover.sample_point();
     if (!point || n == 0) return {};
-    NamedNumbers numbers;
-    for (const auto& [parameter, value] : system.values)
-        numbers[graph.input_name(parameter)] = evaluate<long double>(graph, std::vector{value}, {})[0];
+    NamedNumbers numbers = reduction.prover.parameter_numbers();
     for (const auto& [name, value] : *point) numbers[name] = static_cast<long double>(to_double(value));
     Replacements seeds = replacements(system.lanes, reduction.prover.with_relations(system.rates));
     seeds.emplace_back(system.time, graph.constant(1));

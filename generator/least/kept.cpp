@@ -5,6 +5,7 @@
 /// proved of it stays.
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/evaluate.hpp"
+#include "graph/core/operators.hpp"
 #include "least/reduction.hpp"
 
 #include <algorithm>
@@ -29,8 +30,7 @@ class ShortMotion {
   public:
     explicit ShortMotion(const Reduction& reduction) : graph_(reduction.graph()), system_(reduction.system)
     {
-        for (const auto& [parameter, value] : system_.values)
-            inputs_[graph_.input_name(parameter)] = evaluate<long double>(graph_, std::vector{value}, {})[0];
+        inputs_ = reduction.prover.parameter_numbers();
         if (system_.start_time) start_ = evaluate<long double>(graph_, std::vector{*system_.start_time}, inputs_)[0];
         inputs_[graph_.input_name(system_.time)] = start_;
     }
@@ -220,8 +220,8 @@ class InvariantSet {
 
 bool jumps_in_value(Op op)
 {
-    return op == Op::sign || op == Op::select || op == Op::less || op == Op::less_equal || op == Op::greater ||
-           op == Op::greater_equal || op == Op::equal || op == Op::not_equal;
+    const Smoothness smoothness = operator_of(op).smoothness;
+    return smoothness == Smoothness::stepped || smoothness == Smoothness::chosen;
 }
 
 /// True where the rates have finite slopes at the start in the lanes that are tied, and do not jump with them.

@@ -92,8 +92,6 @@ class LaneSystemMaker {
                 value = lower_(tree);
             else if (i >= behind)
                 value = graph_->constant(model_.states[i - behind].start);
-            else if (i >= form_.x.size() && scene_.rest && !form_.form->momenta)
-                value = graph_->constant(0);
             if (i < form_.x.size() && scene_.project) value.reset();
         }
         if (form_.form->momenta && !has_momenta && system_.lagrangian) set_momenta(start);
@@ -111,8 +109,8 @@ class LaneSystemMaker {
         const LagrangianNodes lagrangian = lagrangian_nodes(*graph_, system_);
         for (const NodeId y : lagrangian.fibre.y) {
             const Tree tree = given(scene_.initial, graph_->input_name(y));
-            if (tree == nullptr && !scene_.rest) return;
-            at.emplace_back(y, tree == nullptr ? graph_->constant(0) : lower_(tree));
+            if (tree == nullptr) return;
+            at.emplace_back(y, lower_(tree));
         }
         at.emplace_back(system_.time, out_.start_time.value_or(graph_->constant(0)));
         const std::vector<NodeId> momenta = substitute(*graph_, lagrangian.fibre.momenta, at);

@@ -23,7 +23,7 @@ struct LeastModel {
     OperationCount full_operations, least_operations; ///< of the rates
 };
 
-/// What a scene watches of a form of the equations.
+/// The motion of a scene in one form of the equations, with everything that the scene watches of it.
 [[nodiscard]] LaneSystem lane_system(const Model& model, const System& system, const Report& report,
                                      const Scene& scene);
 

@@ -24,19 +24,12 @@ struct Solution {
     long double size = 0; ///< of the coefficient at a point
 };
 
-NodeId rate_of(Graph& graph, const LaneSystem& system, NodeId function)
-{
-    Replacements seeds = replacements(system.lanes, system.rates);
-    seeds.emplace_back(system.time, graph.constant(1));
-    return directional(graph, std::vector{function}, seeds)[0];
-}
-
 /// Sums of the candidates, with rational coefficients, whose rate vanishes at some points; those of one term apart.
 std::vector<NamedNode> sums_of(Reduction& reduction, const std::vector<NamedNode>& changing)
 {
     Graph& graph = reduction.graph();
     std::vector<NodeId> rates;
-    for (const NamedNode& each : changing) rates.push_back(rate_of(graph, reduction.system, each.node));
+    for (const NamedNode& each : changing) rates.push_back(reduction.rate_of(each.node));
     RationalSpan span(rates.size());
     for (const NamedNumbers& point : reduction.prover.points()) span.add(evaluate<long double>(graph, rates, point));
     std::vector<NamedNode> sums;
@@ -79,7 +72,7 @@ class Solver {
     bool add(const NamedNode& function)
     {
         const LaneSystem& system = reduction_.system;
-        const auto needed = reduction_.prover.vanishing({rate_of(graph_, system, function.node)});
+        const auto needed = reduction_.prover.vanishing({reduction_.rate_of(function.node)});
         if (!needed || !reduction_.survives_jumps(function.node)) return false;
         for (std::size_t i = 0; i < system.lanes.size(); ++i) {
             const NodeId lane[] = {system.lanes[i]};

@@ -55,10 +55,10 @@ class OwnEquation {
     bool find()
     {
         if (!has_one_function()) return false;
-        first_ = derive(h_);
+        first_ = reduction_.rate_of(h_);
         find_constants();
         points_ = reduction_.prover.exact_points(most_points);
-        const std::optional<NodeId> force = in_h(derive(first_));
+        const std::optional<NodeId> force = in_h(reduction_.rate_of(first_));
         if (!force) return false;
         force_ = *force;
         return std::ranges::all_of(system().walls, [&](NodeId wall) { return move_wall(wall); });
@@ -100,13 +100,6 @@ class OwnEquation {
   private:
     [[nodiscard]] const LaneSystem& system() const { return reduction_.system; }
 
-    [[nodiscard]] NodeId derive(NodeId function)
-    {
-        Replacements seeds = replacements(system().lanes, system().rates);
-        seeds.emplace_back(system().time, graph_.constant(1));
-        return directional(graph_, std::vector{function}, seeds)[0];
-    }
-
     /// One function is watched, and its own equation would have fewer states, or no pole where the rates have one.
     bool has_one_function()
     {
@@ -141,7 +134,7 @@ class OwnEquation {
         for (const NamedNode& candidate : system().candidates) {
             const NodeId root[] = {candidate.node};
             if (constants_.size() == most_constants || !depends_on_any(graph_, root, system().lanes)) continue;
-            const auto needed = reduction_.prover.vanishing({derive(candidate.node)});
+            const auto needed = reduction_.prover.vanishing({reduction_.rate_of(candidate.node)});
             if (needed && needed->empty())
                 constants_.push_back({candidate.node, graph_.input("start of " + candidate.name), candidate.name});
         }
@@ -198,14 +191,13 @@ class OwnEquation {
 
     [[nodiscard]] NamedNumbers numbers_of(const NamedPoint& point) const
     {
-        NamedNumbers numbers;
-        for (const auto& [parameter, value] : system().values)
-            numbers[graph_.input_name(parameter)] = evaluate<long double>(graph_, std::vector{value}, {})[0];
+        NamedNumbers numbers = reduction_.prover.parameter_numbers();
         for (const auto& [name, value] : point) numbers[name] = static_cast<long double>(value.exact->get_d());
         return numbers;
     }
 
-    /// What solves sum c_k row_k = function at as many rational points as there are terms, over the parameters.
+    /// The coefficients c with sum c_k row_k = function at as many rational points as there are terms, functions of the
+    /// parameters.
     std::vector<NodeId> coefficients_of(std::vector<NodeId> row, NodeId function)
     {
         const std::size_t m = row.size();

@@ -4,6 +4,7 @@
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/evaluate.hpp"
 #include "graph/core/lower.hpp"
+#include "graph/core/operators.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,30 +29,7 @@ ProofBudget budget_of_a_rule()
 /// them.
 bool has_branches(Op op)
 {
-    switch (op) {
-    case Op::constant:
-    case Op::pi:
-    case Op::input:
-    case Op::add:
-    case Op::subtract:
-    case Op::multiply:
-    case Op::divide:
-    case Op::negate:
-    case Op::power:
-    case Op::sin:
-    case Op::cos:
-    case Op::tan:
-    case Op::sinh:
-    case Op::cosh:
-    case Op::tanh:
-    case Op::exp:
-    case Op::stumpff:
-    case Op::erf:
-    case Op::factor:
-    case Op::solve:
-    case Op::component: return false;
-    default: return true;
-    }
+    return !is_meromorphic(op) && operator_of(op).smoothness != Smoothness::system;
 }
 
 } // namespace
@@ -66,7 +44,7 @@ bool may_jump(const Graph& graph, const std::vector<NodeId>& nodes, const std::v
         const bool is_inverse = op == Op::power && static_cast<std::int32_t>(graph.payload(node)) < 0;
         if (is_inverse || (op == Op::divide && moves[graph.operands(node)[1]])) divides = true;
         if (!has_branches(op)) continue;
-        if (op != Op::abs && op != Op::minimum && op != Op::maximum && op != Op::sqrt) return true;
+        if (operator_of(op).smoothness != Smoothness::kinked && op != Op::sqrt) return true;
         has_kinks = true;
     }
     return has_kinks && divides;
@@ -119,10 +97,16 @@ const std::vector<NamedNumbers>& Prover::points()
     for (const auto& [parameter, value] : values_) all.push_back(parameter);
     const There& there = where(all);
     points_ = there.decider ? generic_points(*graph_, there.setting, 3) : std::vector<NamedNumbers>();
-    for (NamedNumbers& point : *points_)
-        for (const auto& [parameter, value] : values_)
-            point[graph_->input_name(parameter)] = evaluate<long double>(*graph_, std::vector{value}, {})[0];
+    for (NamedNumbers& point : *points_) point.merge(parameter_numbers());
     return *points_;
+}
+
+NamedNumbers Prover::parameter_numbers() const
+{
+    NamedNumbers numbers;
+    for (const auto& [parameter, value] : values_)
+        numbers[graph_->input_name(parameter)] = evaluate<long double>(*graph_, std::vector{value}, {})[0];
+    return numbers;
 }
 
 std::vector<NamedPoint> Prover::exact_points(std::size_t count)

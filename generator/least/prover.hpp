@@ -49,6 +49,8 @@ class Prover {
 
     /// The same function with the values of the relations.
     [[nodiscard]] std::vector<NodeId> with_relations(const std::vector<NodeId>& functions);
+    /// The scene's parameters in numbers.
+    [[nodiscard]] NamedNumbers parameter_numbers() const;
     /// Random points of the motion's set with the scene's parameters, in numbers.
     [[nodiscard]] const std::vector<NamedNumbers>& points();
     /// The same, up to `count` of them with exact coordinates.
@@ -60,7 +62,7 @@ class Prover {
     [[nodiscard]] const ProofSetting& setting() const { return setting_; }
 
   private:
-    /// What holds where some parameters have their values.
+    /// The setting in which some parameters have their values, and what decides there.
     struct There {
         ProofSetting setting;
         std::shared_ptr<const ZeroDecider> decider; ///< null where there is none

@@ -9,20 +9,27 @@ namespace lagen {
 
 namespace {
 
-constexpr LeastRule rules[] = {{"constant", hold_constants},        {"kept", keep_invariant_set},
-                               {"watched", leave_out_unwatched},    {"differences", lump_lanes},
-                               {"own_equation", find_own_equation}, {"momentum", solve_by_conserved}};
+constexpr LeastRule rule_table[] = {{"constant", hold_constants},        {"kept", keep_invariant_set},
+                                    {"watched", leave_out_unwatched},    {"differences", lump_lanes},
+                                    {"own_equation", find_own_equation}, {"momentum", solve_by_conserved}};
 
 } // namespace
 
 std::span<const LeastRule> least_rules()
 {
-    return rules;
+    return rule_table;
 }
 
 Reduction::Reduction(LaneSystem given)
     : system(std::move(given)), prover(*system.graph, system.setting, system.values), written(system.rates)
 {
+}
+
+NodeId Reduction::rate_of(NodeId function) const
+{
+    Replacements seeds = replacements(system.lanes, system.rates);
+    seeds.emplace_back(system.time, graph().constant(1));
+    return directional(graph(), std::vector{function}, seeds)[0];
 }
 
 std::optional<NodeId> Reduction::at_start(NodeId function) const

@@ -57,6 +57,8 @@ struct Reduction {
     [[nodiscard]] std::vector<NodeId> wanted() const;
     /// True where no jump changes this function.
     [[nodiscard]] bool survives_jumps(NodeId function);
+    /// The derivative of a function along the motion.
+    [[nodiscard]] NodeId rate_of(NodeId function) const;
     /// A function at the start, over parameters; nothing where it is no closed expression there.
     [[nodiscard]] std::optional<NodeId> at_start(NodeId function) const;
     /// Leaves lanes out of what is known of each lane.

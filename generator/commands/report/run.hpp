@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// What a run gave, and how it is told.
+/// The outcome of a run, as text and as JSON.
 #pragma once
 
 #include "commands/line/options.hpp"
@@ -32,8 +32,8 @@ namespace lagen {
 /// A line for standard error where the run starts on events that do not happen there, or beyond them; else nothing.
 [[nodiscard]] std::string start_note(const RunOutcome& outcome);
 
-/// What the equations conserve and this run did not, and lanes below the absolute tolerance: a line "warning: ..."
-/// each.
+/// Warnings of functions that the equations conserve and this run did not, and of lanes below the absolute tolerance: a
+/// line "warning: ..." each.
 [[nodiscard]] std::string run_warnings(const RunOutcome& outcome);
 
 // An interrupted run leaves the rows that it has written so far.
